@@ -1,0 +1,34 @@
+// Owns the HDF5 result file of a run: its names, written to a temporary name and renamed when whole.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/life/life.h"
+#include "sim/record.h"
+
+namespace beltlife {
+
+/// How the numbers came about; stored as attributes of the file's root.
+struct Provenance {
+  std::string version;
+  std::string command_line;
+  std::string scene_path;
+  std::string scene_text;  ///< the scene as it was run, settings applied
+  std::string compiler;
+  std::string revision;
+  std::string scheme;
+  int elements = 0;
+};
+
+/// Refuses, before anything is simulated, a path that cannot be written (missing folder, no permission, a
+/// directory). Throws BadInput.
+void check_writable(const std::filesystem::path& path);
+
+/// Writes runs (one per simulated run: the whole profile, or one per range) and the life to `path`.
+/// Failed runs are written too, marked by their status. Throws BadInput if the file cannot be written; leaves
+/// nothing behind then.
+void write_results(const std::filesystem::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs, const Life* life);
+
+}  // namespace beltlife

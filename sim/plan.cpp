@@ -1,0 +1,88 @@
+// Profiles and windows of a run: see plan.h.
+#include "sim/plan.h"
+
+#include <numbers>
+
+namespace beltlife {
+namespace {
+
+constexpr double rad_s = std::numbers::pi / 30;
+
+double hold_begin(const ProfileSpec& p, std::size_t range) {
+  return p.settle_s + p.ramp_s + static_cast<double>(range) * (p.hold_s + p.transition_s);
+}
+
+SpeedProfile synthetic(const SceneSpec& scene, const std::vector<double>& t, const std::vector<double>& w) {
+  return SpeedProfile(t, w, harmonics_of(*scene.driver), scene.driver->phase_rad);
+}
+
+Window window_of(const SceneSpec& scene, const RangeSpec& range, double hold_end) {
+  return {range.name, range.crank_rpm, range.duty_share, hold_end - scene.profile.evaluate_s, hold_end};
+}
+
+}  // namespace
+
+RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured) {
+  const ProfileSpec& p = scene.profile;
+  const double start = p.settle_s + p.ramp_s;
+  RunPlan plan{range.name, {}, {}, start + p.hold_s};
+  std::vector<double> t{0, p.settle_s, start}, w{0, 0, range.crank_rpm * rad_s};
+  if (measured) {
+    std::size_t index = 0;
+    while (index < scene.range.size() && scene.range[index].name != range.name) ++index;
+    const double begin = hold_begin(p, index), end = begin + p.hold_s;
+    const auto& mt = measured->time_s;
+    const auto& mv = measured->speed_rpm;
+    const auto at = [&](double time) {  // linear between samples, held outside
+      if (time <= mt.front()) return mv.front();
+      for (std::size_t i = 1; i < mt.size(); ++i)
+        if (time <= mt[i]) return mv[i - 1] + (mv[i] - mv[i - 1]) * (time - mt[i - 1]) / (mt[i] - mt[i - 1]);
+      return mv.back();
+    };
+    w.back() = at(begin) * rad_s;
+    for (std::size_t i = 0; i < mt.size(); ++i)
+      if (mt[i] > begin && mt[i] < end) {
+        t.push_back(start + mt[i] - begin);
+        w.push_back(mv[i] * rad_s);
+      }
+    t.push_back(start + p.hold_s);
+    w.push_back(at(end) * rad_s);
+    plan.profile = SpeedProfile(t, w);
+  } else {
+    plan.profile = synthetic(scene, t, w);
+  }
+  plan.windows.push_back(window_of(scene, range, plan.end_s));
+  return plan;
+}
+
+RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured) {
+  const ProfileSpec& p = scene.profile;
+  RunPlan plan{"profile", {}, {}, 0};
+  std::vector<double> t{0, p.settle_s}, w{0, 0};
+  for (std::size_t i = 0; i < scene.range.size(); ++i) {
+    const double begin = hold_begin(p, i), end = begin + p.hold_s;
+    for (double time : {begin, end}) {
+      t.push_back(time);
+      w.push_back(scene.range[i].crank_rpm * rad_s);
+    }
+    plan.windows.push_back(window_of(scene, scene.range[i], end));
+    plan.end_s = end;
+  }
+  if (measured) {
+    std::vector<double> speed;
+    for (double v : measured->speed_rpm) speed.push_back(v * rad_s);
+    plan.profile = SpeedProfile(measured->time_s, speed);
+  } else {
+    plan.profile = synthetic(scene, t, w);
+  }
+  return plan;
+}
+
+RunPlan plan_rest(const SceneSpec& scene) {
+  const ProfileSpec& p = scene.profile;
+  RunPlan plan{"rest", {}, {}, p.settle_s + p.hold_s};
+  plan.windows.push_back({"rest", 0, 0, plan.end_s - p.evaluate_s, plan.end_s});
+  return plan;
+}
+
+}  // namespace beltlife

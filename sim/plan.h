@@ -1,0 +1,42 @@
+// Owns what is run: a speed profile over time and the windows of it that are evaluated.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/scene/scene.h"
+#include "sim/speed_profile.h"
+
+namespace beltlife {
+
+/// A stretch of a run that is evaluated.
+struct Window {
+  std::string range;
+  double crank_rpm = 0;
+  double duty_share = 0;
+  double begin_s = 0, end_s = 0;
+};
+
+struct RunPlan {
+  std::string name;
+  SpeedProfile profile;
+  std::vector<Window> windows;
+  double end_s = 0;
+};
+
+/// A measured speed of the driven body: time (s, increasing) and speed (r/min, positive in the running sense).
+struct MeasuredSpeed {
+  std::vector<double> time_s, speed_rpm;
+};
+
+/// One range alone: settle at rest, ramp, hold; the last evaluate_s of the hold is the window. With a measured speed
+/// the hold plays the stretch of it in which the whole profile holds this range.
+RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured = nullptr);
+
+/// All ranges one after the other: settle, ramp, then holds with transitions between; one window a range.
+RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured = nullptr);
+
+/// A scene without ranges: settle and hold, with one window named "rest".
+RunPlan plan_rest(const SceneSpec& scene);
+
+}  // namespace beltlife

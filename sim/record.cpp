@@ -1,0 +1,30 @@
+// Owns the arithmetic of the energy account.
+#include "sim/record.h"
+
+namespace beltlife {
+
+namespace {
+constexpr auto first_loss = static_cast<std::size_t>(Energy::lost_belt_axial);
+constexpr auto end_of_losses = static_cast<std::size_t>(Energy::stored);
+}  // namespace
+
+double EnergyAccount::residual() const {
+  double left = -(*this)[Energy::stored];
+  for (std::size_t i = 0; i < first_loss; ++i) left += joule[i];
+  for (std::size_t i = first_loss; i < end_of_losses; ++i) left -= joule[i];
+  return left;
+}
+
+double EnergyAccount::throughput() const {
+  double in = 0;
+  for (std::size_t i = 0; i < first_loss; ++i)
+    if (joule[i] > 0) in += joule[i];
+  return in;
+}
+
+double EnergyAccount::relative_residual() const {
+  const double in = throughput();
+  return in > 0 ? residual() / in : 0;
+}
+
+}  // namespace beltlife

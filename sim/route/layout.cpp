@@ -1,0 +1,242 @@
+// Layout, static balance and feasibility: see layout.h.
+#include "sim/route/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "sim/scene/scene_io.h"
+
+namespace beltlife {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+std::size_t pulley_index(const SceneSpec& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.pulley.size(); ++i)
+    if (scene.pulley[i].name == name) return i;
+  return scene.pulley.size();
+}
+
+// The loop can be traversed in the listed order with front pulleys on the left (+1) or on the right (-1). A drive with
+// three pulleys or more closes as a simple loop one way only; two pulleys close both ways alike.
+int orientation_of(const SceneSpec& scene) {
+  int best = 1;
+  double best_length = 0;
+  bool found = false;
+  for (int orientation : {1, -1}) {
+    Route route;
+    if (!make_route(circles_of(scene, orientation, 0), route) || !route.simple) continue;
+    if (!found || route.length < best_length * (1 - 1e-12)) {
+      best = orientation;
+      best_length = route.length;
+      found = true;
+    }
+  }
+  return best;
+}
+
+double distance_to_span(const Span& span, double x, double y) {
+  const double s = (x - span.from.x) * span.direction.x + (y - span.from.y) * span.direction.y;
+  const double c = std::clamp(s, 0.0, span.length);
+  return std::hypot(x - span.from.x - c * span.direction.x, y - span.from.y - c * span.direction.y);
+}
+
+// Torque with which spring and belt turn the arm counterclockwise; zero at balance. The spring acts in the
+// path-lengthening sense `sense`: torque at the placed position plus rate x rotation in the path-shortening sense.
+struct Arm {
+  const TensionerSpec& spec;
+  double sense;
+  double spring_torque(double angle) const {
+    return sense * spec.spring_torque_n_m - spec.spring_rate_n_m_per_rad * angle;
+  }
+};
+
+// First root of f next to 0 on either side within +-limit; nothing where f is undefined (NaN).
+bool root_near_zero(const std::function<double(double)>& f, double limit, double& root) {
+  constexpr int pieces = 400;
+  double best = 2 * limit;
+  for (double side : {1.0, -1.0}) {
+    double a = 0, fa = f(0);
+    for (int k = 1; k <= pieces && std::abs(a) < best; ++k) {
+      const double b = side * limit * k / pieces, fb = f(b);
+      if (std::isnan(fa) || std::isnan(fb)) break;
+      if (fa == 0) {
+        best = std::abs(a);
+        root = a;
+        break;
+      }
+      if ((fa < 0) != (fb < 0)) {
+        double lo = a, hi = b, flo = fa;
+        for (int i = 0; i < 200 && std::abs(hi - lo) > 0; ++i) {
+          const double mid = 0.5 * (lo + hi), fm = f(mid);
+          if (mid == lo || mid == hi) break;
+          if ((fm < 0) == (flo < 0)) {
+            lo = mid;
+            flo = fm;
+          } else {
+            hi = mid;
+          }
+        }
+        const double found = 0.5 * (lo + hi);
+        if (std::abs(found) < best) {
+          best = std::abs(found);
+          root = found;
+        }
+        break;
+      }
+      a = b;
+      fa = fb;
+    }
+  }
+  return best <= limit;
+}
+
+Layout layout_at(const SceneSpec& scene, int orientation, double angle) {
+  Layout layout;
+  layout.arm_angle = angle;
+  const auto circles = circles_of(scene, orientation, angle);
+  if (!make_route(circles, layout.route) || !layout.route.simple) {
+    layout.route.length = std::nan("");
+    return layout;
+  }
+  if (scene.tensioner) {
+    const std::size_t i = pulley_index(scene, scene.tensioner->pulley);
+    const Vec2 g = length_gradient(layout.route, i);
+    const double rx = circles[i].x - scene.tensioner->pivot_x_mm * 1e-3;
+    const double ry = circles[i].y - scene.tensioner->pivot_y_mm * 1e-3;
+    layout.length_per_arm_angle = -ry * g.x + rx * g.y;
+  }
+  return layout;
+}
+
+[[noreturn]] void refuse(std::string_view file, std::string key, std::string what, std::string allowed) {
+  throw BadInput({Problem{std::string(file), 0, std::move(key), std::move(what), std::move(allowed)}});
+}
+
+void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, std::string_view file, const char* where) {
+  std::vector<Problem> problems;
+  for (const auto& c : clearances(scene, route))
+    if (c.value < 0) problems.push_back({std::string(file), 0, "pulley", c.words + where, ""});
+  if (problems.empty() && !closed)
+    problems.push_back({std::string(file), 0, "pulley", std::string("the belt does not close as a simple loop") + where,
+                        "list the pulleys in the order in which the belt passes them, with the right side each"});
+  if (!problems.empty()) throw BadInput(std::move(problems));
+}
+
+}  // namespace
+
+std::string span_name(const SceneSpec& scene, std::size_t i) {
+  return scene.pulley[i].name + "-" + scene.pulley[(i + 1) % scene.pulley.size()].name;
+}
+
+std::vector<Circle> circles_of(const SceneSpec& scene, int orientation, double arm_angle) {
+  std::vector<Circle> circles;
+  for (const auto& p : scene.pulley)
+    circles.push_back({p.x_mm * 1e-3, p.y_mm * 1e-3, p.pitch_diameter_mm * 5e-4,
+                       p.side == Side::front ? orientation : -orientation});
+  if (scene.tensioner) {
+    Circle& c = circles[pulley_index(scene, scene.tensioner->pulley)];
+    const double px = scene.tensioner->pivot_x_mm * 1e-3, py = scene.tensioner->pivot_y_mm * 1e-3;
+    const double rx = c.x - px, ry = c.y - py, cos = std::cos(arm_angle), sin = std::sin(arm_angle);
+    c.x = px + cos * rx - sin * ry;
+    c.y = py + sin * rx + cos * ry;
+  }
+  return circles;
+}
+
+std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
+  std::vector<Clearance> out;
+  const auto& c = route.circles;
+  const std::size_t count = c.size();
+  bool overlap = false;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const double gap = 1e3 * (std::hypot(c[i].x - c[j].x, c[i].y - c[j].y) - c[i].radius - c[j].radius);
+      out.push_back({fmt::format("pulleys {} and {}", scene.pulley[i].name, scene.pulley[j].name), gap, "mm",
+                     fmt::format("pulleys {} and {} overlap by {:.1f} mm", scene.pulley[i].name, scene.pulley[j].name, -gap)});
+      overlap = overlap || gap < 0;
+    }
+  if (overlap || !route.simple) {
+    // Without a loop there are no wraps to name; a wrap that vanished shows as one close to a full turn.
+    if (!overlap && route.wrap.size() == count)
+      for (std::size_t i = 0; i < count; ++i) {
+        const double missing = route.wrap[i] / degree - 360;
+        if (missing > -120)
+          out.push_back({"wrap on " + scene.pulley[i].name, missing, "deg",
+                         fmt::format("the wrap on {} vanishes: the belt would pass it on its {} side by {:.1f} degrees",
+                                     scene.pulley[i].name, scene.pulley[i].side == Side::front ? "back" : "front", -missing)});
+      }
+    return out;
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    out.push_back({"wrap on " + scene.pulley[i].name, route.wrap[i] / degree, "deg", ""});
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      if (j == i || j == (i + 1) % count) continue;
+      const double gap = 1e3 * (distance_to_span(route.spans[i], c[j].x, c[j].y) - c[j].radius);
+      out.push_back({fmt::format("belt {} and pulley {}", span_name(scene, i), scene.pulley[j].name), gap, "mm",
+                     fmt::format("the belt between {} and {} runs through pulley {} by {:.1f} mm", scene.pulley[i].name,
+                                 scene.pulley[(i + 1) % count].name, scene.pulley[j].name, -gap)});
+    }
+  return out;
+}
+
+StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
+  StaticState s;
+  s.orientation = orientation_of(scene);
+  const double ea = scene.belt.axial_stiffness_n;
+  {
+    Route route;
+    const bool closed = make_route(circles_of(scene, s.orientation, 0), route) && route.simple;
+    refuse_infeasible(scene, route, closed, file, "");
+  }
+  s.placed = layout_at(scene, s.orientation, 0);
+  const auto tension_of = [&](double length) { return ea * (length / s.unstretched_length - 1); };
+  if (scene.belt.unstretched_length_mm) s.unstretched_length = *scene.belt.unstretched_length_mm * 1e-3;
+
+  if (!scene.tensioner) {
+    if (scene.belt.pretension_n) s.unstretched_length = s.placed.route.length / (1 + *scene.belt.pretension_n / ea);
+    s.placed.tension = tension_of(s.placed.route.length);
+    s.balance = s.placed;
+    return s;
+  }
+
+  const double gradient = s.placed.length_per_arm_angle;
+  if (std::abs(gradient) < 1e-6)
+    refuse(file, "tensioner", "turning the arm does not change the length of the belt path",
+           "a pivot off the line of the tensioner pulley's hub load");
+  const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0};
+
+  double angle = 0;
+  if (scene.belt.balanced_as_placed) {
+    const double tension = arm.spring_torque(0) / gradient;
+    s.unstretched_length = s.placed.route.length / (1 + tension / ea);
+  } else {
+    const auto imbalance = [&](double a) {
+      const Layout l = layout_at(scene, s.orientation, a);
+      if (std::isnan(l.route.length)) return std::nan("");
+      const double tension = scene.belt.pretension_n ? *scene.belt.pretension_n : tension_of(l.route.length);
+      return arm.spring_torque(a) - tension * l.length_per_arm_angle;
+    };
+    if (!root_near_zero(imbalance, std::numbers::pi, angle))
+      refuse(file, scene.belt.pretension_n ? "belt.pretension_n" : "belt.unstretched_length_mm",
+             scene.belt.pretension_n
+                 ? fmt::format("no arm angle gives a tension of {:g} N at rest", *scene.belt.pretension_n)
+                 : fmt::format("no arm angle balances a belt of {:g} mm", 1e3 * s.unstretched_length),
+             fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N", 1e3 * s.placed.route.length,
+                         arm.spring_torque(0) / gradient));
+    if (scene.belt.pretension_n)
+      s.unstretched_length = layout_at(scene, s.orientation, angle).route.length / (1 + *scene.belt.pretension_n / ea);
+  }
+  s.placed.tension = tension_of(s.placed.route.length);
+  s.balance = layout_at(scene, s.orientation, angle);
+  s.balance.tension = tension_of(s.balance.route.length);
+  refuse_infeasible(scene, s.balance.route, true, file, " where the tensioner comes to rest");
+  return s;
+}
+
+}  // namespace beltlife

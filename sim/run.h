@@ -1,0 +1,31 @@
+// Owns a run from rest to the end of its plan: steps, samples, observes, and ends with a record whatever happens.
+#pragma once
+
+#include <functional>
+
+#include "sim/model.h"
+#include "sim/plan.h"
+#include "sim/record.h"
+#include "sim/schemes/scheme.h"
+
+namespace beltlife {
+
+struct RunOptions {
+  /// Called with simulated seconds done, now and then; may be empty.
+  std::function<void(double)> progress;
+  /// Fill kernel_times.
+  bool profile_kernels = false;
+};
+
+struct RunOutcome {
+  RunRecord record;
+  std::vector<KernelTime> kernel_times;
+};
+
+/// The step that a run of this model takes: the scene's, or the predicted stable one, shortened so that a whole number
+/// of steps makes one sampling interval.
+double run_step(const Model& model);
+
+RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& options = {});
+
+}  // namespace beltlife

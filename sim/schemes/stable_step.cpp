@@ -1,0 +1,124 @@
+// Predicted stable step of the explicit schemes, mode by mode: see scheme.h.
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "sim/schemes/scheme.h"
+
+namespace beltlife {
+namespace {
+
+constexpr double margin = 0.9;  // of the shortest limit: the modes couple on curved belt
+
+// Largest modulus of the trapezoidal scheme's one-step amplification of x'' + c x' + w2 x = 0.
+double amplification(double w2, double c, double h) {
+  using C = std::complex<double>;
+  const C root = std::sqrt(C(c * c - 4 * w2));
+  double most = 0;
+  for (const C& s : {(-c + root) / 2.0, (-c - root) / 2.0}) {
+    const C z = s * h;
+    most = std::max(most, std::abs(1.0 + z + z * z / 2.0));
+  }
+  return most;
+}
+
+// Tension (N) that the drive is expected to see: static, plus what the torque tables put through the belt, plus
+// centrifugal, at the fastest range.
+double expected_tension(const Model& m) {
+  double most = std::max(m.statics.balance.tension, 0.0);
+  if (m.driver.body < 0) return most;
+  for (const auto& range : m.scene.range) {
+    const double v = range.crank_rpm * std::numbers::pi / 30 / m.speed_ratio[m.driver.body];
+    if (v <= 0) continue;
+    double power = 0;
+    for (const auto& t : m.torques) {
+      const double speed = v * m.speed_ratio[t.body];
+      power += std::abs(t.factor * t.torque(speed) * speed);
+    }
+    most = std::max(most, std::max(m.statics.balance.tension, 0.0) + power / v + m.scene.belt.mass_kg_per_m * v * v);
+  }
+  return most;
+}
+
+// Bending damping presses a belt that enters curvature harder than T l0/R: 2.6 to 4.5 times, measured between k_p 1e10
+// and 5.6e10.
+double expected_normal_force(const Model& m, int pulley) {
+  const double peak = m.belt.bending_damping > 0 ? 3.0 : 1.5;
+  return peak * expected_tension(m) * m.belt.element_length / m.pulley_radius[pulley];
+}
+
+void add_pair(std::vector<StepLimit>& out, Scheme scheme, const std::string& name, double k, double c, double mobility) {
+  out.push_back({name, "mode (k, c) x (1/J1 + 1/J2)", mode_limit(scheme, k * mobility, c * mobility)});
+}
+
+}  // namespace
+
+double mode_limit(Scheme scheme, double w2, double c) {
+  // Semi-implicit Euler: z^2 - (2 - h c - h^2 w2) z + (1 - h c) = 0 has both roots in the unit circle while
+  // 2 h c + h^2 w2 <= 4.
+  if (scheme == Scheme::symplectic_euler) return 4 / (c + std::sqrt(c * c + 4 * w2));
+  const auto stable = [&](double h) { return amplification(w2, c, h) <= 1 + h; };
+  double low = 1e-10, high = 1.0;
+  while (high / low > 1 + 1e-9) {
+    const double mid = std::sqrt(low * high);
+    (stable(mid) ? low : high) = mid;
+  }
+  return low;
+}
+
+double axial_damping_rate(const Model& m) {
+  return 4 * m.belt.axial_damping / (m.belt.element_length * m.belt.node_mass);
+}
+
+double friction_damping_rate(const Model& m, double friction, double normal_force) {
+  return friction * normal_force * (1 - m.contact.anchor_share) / (m.contact.friction_speed * m.belt.node_mass);
+}
+
+std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {
+  std::vector<StepLimit> out;
+  const BeltModel& b = m.belt;
+  const double mass = b.node_mass, l = b.element_length;
+  double slope = 0;
+  for (int p = 0; p < m.pulleys; ++p)
+    slope = std::max(slope, friction_damping_rate(m, m.pulley_friction[p], expected_normal_force(m, p)));
+  out.push_back({"axial belt wave, damping and friction slope", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m) + mu Fn (1-beta)/(vs m)",
+                 mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m) + slope)});
+  if (slope == 0 || b.axial_damping == 0)
+    out.push_back({"axial belt wave", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m)",
+                   mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m))});
+  if (b.bending_damping > 0 || b.bending_stiffness > 0)
+    out.push_back({"bending", "w^2 = 16 EI/(l0^3 m), c = 16 CI/(l0^3 m)",
+                   mode_limit(scheme, 16 * b.bending_stiffness / (l * l * l * mass), 16 * b.bending_damping / (l * l * l * mass))});
+  if (m.pulleys > 0) {
+    out.push_back({"contact penalty", "w^2 = A kp/m, c = A cp/m", mode_limit(scheme, m.contact.stiffness / mass, m.contact.damping / mass)});
+    // Along the surface the axial damping acts on a sticking node too, which keeps the scheme from amplifying it.
+    out.push_back({"friction anchor", "w^2 = A kt/m, c = 4 CA/(l0 m)",
+                   mode_limit(scheme, m.contact.friction_stiffness / mass, axial_damping_rate(m))});
+  }
+  for (std::size_t i = 0; i < m.springs.size(); ++i) {
+    const auto& s = m.springs[i];
+    add_pair(out, scheme, "torsional spring " + m.scene.torsional_spring[i].name, s.stiffness, s.damping,
+             m.inverse_inertia[s.from] + m.inverse_inertia[s.to]);
+  }
+  for (std::size_t i = 0; i < m.gears.size(); ++i) {
+    const auto& g = m.gears[i];
+    add_pair(out, scheme, "gear pair " + m.scene.gear_pair[i].name, g.stiffness, g.damping,
+             g.pinion_radius * g.pinion_radius * m.inverse_inertia[g.pinion] +
+                 g.gear_radius * g.gear_radius * m.inverse_inertia[g.gear]);
+  }
+  if (m.tensioner.pulley >= 0 && !m.tensioner.locked)
+    out.push_back({"tensioner arm", "w^2 = (rate + friction anchor)/J, c = damping/J",
+                   mode_limit(Scheme::symplectic_euler, (m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
+                              m.tensioner.damping / m.tensioner.inertia)});
+  if (m.driver.body >= 0 && !m.prescribed())
+    out.push_back({"pid driver", "w^2 = angle gain/J, c = speed gain/J",
+                   mode_limit(scheme, m.driver.angle_gain * m.inverse_inertia[m.driver.body],
+                              m.driver.speed_gain * m.inverse_inertia[m.driver.body])});
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& c) { return a.limit_s < c.limit_s; });
+  return out;
+}
+
+double stable_step(const Model& m, Scheme scheme) { return margin * step_limits(m, scheme).front().limit_s; }
+
+}  // namespace beltlife
