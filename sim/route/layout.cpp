@@ -200,7 +200,8 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
 
   if (!scene.tensioner) {
     if (scene.belt.pretension_n) s.unstretched_length = s.placed.route.length / (1 + *scene.belt.pretension_n / ea);
-    s.placed.tension = tension_of(s.placed.route.length);
+    s.placed.tension = s.placed_strain_tension = tension_of(s.placed.route.length);
+    s.placed_unstretched_length = s.unstretched_length;
     s.balance = s.placed;
     return s;
   }
@@ -211,10 +212,12 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
            "a pivot off the line of the tensioner pulley's hub load");
   const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0};
 
+  s.placed.tension = arm.spring_torque(0) / gradient;
+  s.placed_unstretched_length = s.placed.route.length / (1 + s.placed.tension / ea);
+
   double angle = 0;
-  if (scene.belt.balanced_as_placed) {
-    const double tension = arm.spring_torque(0) / gradient;
-    s.unstretched_length = s.placed.route.length / (1 + tension / ea);
+  if (scene.belt.balanced_as_placed.value_or(false)) {
+    s.unstretched_length = s.placed_unstretched_length;
   } else {
     const auto imbalance = [&](double a) {
       const Layout l = layout_at(scene, s.orientation, a);
@@ -228,11 +231,11 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
                  ? fmt::format("no arm angle gives a tension of {:g} N at rest", *scene.belt.pretension_n)
                  : fmt::format("no arm angle balances a belt of {:g} mm", 1e3 * s.unstretched_length),
              fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N", 1e3 * s.placed.route.length,
-                         arm.spring_torque(0) / gradient));
+                         s.placed.tension));
     if (scene.belt.pretension_n)
       s.unstretched_length = layout_at(scene, s.orientation, angle).route.length / (1 + *scene.belt.pretension_n / ea);
   }
-  s.placed.tension = tension_of(s.placed.route.length);
+  s.placed_strain_tension = tension_of(s.placed.route.length);
   s.balance = layout_at(scene, s.orientation, angle);
   s.balance.tension = tension_of(s.balance.route.length);
   refuse_infeasible(scene, s.balance.route, true, file, " where the tensioner comes to rest");

@@ -29,7 +29,9 @@ struct Layout {
 struct StaticState {
   int orientation = 1;               ///< +1: the scene's pulley order runs counterclockwise round the loop
   double unstretched_length = 0;     ///< m, given or solved
-  Layout placed;                     ///< arm as placed, tension EA strain
+  Layout placed;                     ///< arm as placed; its tension is what balances the spring there
+  double placed_unstretched_length = 0;  ///< m, of the belt that would be at rest with the arm as placed
+  double placed_strain_tension = 0;  ///< N, what the belt of `unstretched_length` would carry with the arm as placed
   Layout balance;                    ///< arm at rest (frictionless)
 };
 

@@ -20,7 +20,10 @@ constexpr std::string_view setting_name = "--set";  ///< stands for the file in 
 
 std::string lines_of(const std::vector<Problem>& problems) {
   std::string text;
-  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + to_string(problem);
+  for (const Problem& problem : problems) {
+    if (!text.empty()) text += '\n';
+    text += to_string(problem);
+  }
   return text;
 }
 

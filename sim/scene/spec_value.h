@@ -81,7 +81,7 @@ void assign(T& list, const TomlNode& node, const Rule& rule, Faults& faults) {
     typename T::value_type element{};
     assign(element, (*array)[i], rule, own);
     taken.push_back(element);
-    for (Fault& fault : own) faults.push_back({"." + std::to_string(i), fault.what, fault.allowed});
+    for (Fault& fault : own) faults.push_back({std::string(".").append(std::to_string(i)), fault.what, fault.allowed});
   }
   if (faults.size() == before) list = std::move(taken);
 }

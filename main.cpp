@@ -1,0 +1,121 @@
+// The beltlife command: hands the command line to the commands and turns bad input into exit code 2.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "results/commands.h"
+#include "sim/scene/scene_io.h"
+
+namespace {
+
+using beltlife::CommandOptions;
+
+// Flags that stand for a setting, so that a scene and the command line meet in one place.
+struct Shorthand {
+  std::string scheme, step, elements;
+};
+
+void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
+  app.add_option("--set", o.settings, "change a scene field by path, e.g. --set tensioner.friction_torque_n_m=4 (repeatable)")
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->expected(1);
+  app.add_option("--scheme", s.scheme, "time integrator: thesis or symplectic_euler (same as --set solver.scheme=...)");
+  app.add_option("--step", s.step, "time step in s (same as --set solver.step_s=...)");
+  app.add_option("--elements", s.elements, "belt elements (same as --set belt.elements=...)");
+  app.add_flag("--json", o.json, "print one JSON object on standard output");
+  app.add_flag("--quiet", o.quiet, "no progress on standard error");
+}
+
+void run_flags(CLI::App& app, CommandOptions& o) {
+  app.add_option("--range", o.ranges, "only this operating range (repeatable)")->type_name("NAME")->take_all()->expected(1);
+  app.add_option("--threads", o.threads, "threads over ranges, 0: all")->check(CLI::NonNegativeNumber);
+  app.add_option("--out", o.out, "write an HDF5 result file")->type_name("FILE.h5");
+}
+
+std::string joined(int argc, char** argv) {
+  std::string line;
+  for (int i = 0; i < argc; ++i) line += (i ? " " : "") + std::string(argv[i]);
+  return line;
+}
+
+int run(int argc, char** argv) {
+  CommandOptions o;
+  Shorthand shorthand;
+  o.version = BELTLIFE_VERSION;
+  o.revision = BELTLIFE_REVISION;
+  o.compiler = BELTLIFE_COMPILER;
+  o.command_line = joined(argc, argv);
+
+  CLI::App app{"beltlife: simulates poly-V belt drives in time and predicts how long the belt lives"};
+  app.set_version_flag("--version", std::string(BELTLIFE_VERSION) + " (" + BELTLIFE_REVISION + ")");
+  app.footer(
+      "Examples:\n"
+      "  beltlife check sim/scenes/baseline.toml\n"
+      "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two_pulley.h5\n"
+      "  beltlife life sim/scenes/baseline.toml --set belt.friction_front=0.5\n"
+      "Exit codes: 0 done, 1 usage, 2 bad input, 3 ran but failed, 4 a bug of ours.");
+
+  CLI::App* check = app.add_subcommand("check", "read a scene, solve its layout and static balance, print limits and names; runs nothing");
+  CLI::App* simulate = app.add_subcommand(
+      "simulate", "run the whole profile (or --range, --each-range) and print tensions, slip, hub loads, spectra and energy");
+  CLI::App* life = app.add_subcommand("life", "run every range alone, in parallel, and print stresses and the life of the belt");
+  for (CLI::App* command : {check, simulate, life}) {
+    common_flags(*command, o, shorthand);
+    if (command != check) run_flags(*command, o);
+  }
+  check->add_option("scene", o.scenes, "scene file (TOML)")->required()->expected(1);
+  check->footer("Example:\n  beltlife check sim/scenes/baseline.toml --json");
+  simulate->add_option("scene", o.scenes, "scene file (TOML)")->required()->expected(1);
+  simulate->add_flag("--each-range", o.each_range, "every range alone, in parallel, instead of the profile");
+  simulate->add_flag("--profile", o.profile, "print the time spent in each kernel");
+  simulate->footer(
+      "Examples:\n"
+      "  beltlife simulate sim/scenes/baseline.toml --range B100 --set profile.hold_s=1.5\n"
+      "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json");
+  life->add_option("scene", o.scenes, "one or more scene files (TOML)")->required()->expected(1, -1);
+  life->add_option("--flank-for", o.flank_for_life_h, "also print the flank height at which the life is this many hours")
+      ->type_name("HOURS")
+      ->check(CLI::PositiveNumber);
+  life->footer(
+      "Examples:\n"
+      "  beltlife life sim/scenes/two_pulley.toml\n"
+      "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
+
+  bool reference = false;
+  app.add_flag("--fields", reference, "print the reference of all scene fields as Markdown and exit");
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
+  }
+  if (reference) {
+    std::cout << beltlife::field_reference();
+    return 0;
+  }
+  if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
+  if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
+  if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
+  if (*check) return beltlife::run_check(o);
+  if (*simulate) return beltlife::run_simulate(o);
+  if (*life) return beltlife::run_life(o);
+  std::cerr << app.help();
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const beltlife::BadInput& bad) {
+    std::fprintf(stderr, "%s\n", bad.what());
+    return 2;
+  } catch (const std::exception& bug) {
+    std::fprintf(stderr, "beltlife: a bug: %s\nplease report it with the command and the scene file\n", bug.what());
+    return 4;
+  }
+}

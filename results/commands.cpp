@@ -1,0 +1,270 @@
+// The commands check, simulate, life: see commands.h.
+#include "results/commands.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <numeric>
+#include <optional>
+
+#include "results/print.h"
+#include "results/progress.h"
+#include "results/results_file.h"
+#include "results/table.h"
+#include "sim/eval/run_ranges.h"
+#include "sim/life/loads.h"
+#include "sim/scene/scene_io.h"
+#include "sim/scene/speed_csv.h"
+
+namespace beltlife {
+namespace {
+
+// A scene ready to run.
+struct Loaded {
+  SceneFile file;
+  Model model;
+  std::optional<MeasuredSpeed> measured;
+  const MeasuredSpeed* speed() const { return measured ? &*measured : nullptr; }
+};
+
+Loaded load(const std::string& path, const CommandOptions& o) {
+  if (!o.out.empty()) check_writable(o.out);
+  Loaded l{read_scene(path, o.settings), {}, {}};
+  l.model = compile(l.file.scene, path);
+  if (l.file.scene.driver && l.file.scene.driver->speed_csv)
+    l.measured = read_speed_csv(l.file.path.parent_path() / *l.file.scene.driver->speed_csv);
+  return l;
+}
+
+double seconds_of(const std::vector<RunPlan>& plans) {
+  return std::accumulate(plans.begin(), plans.end(), 0.0, [](double sum, const RunPlan& p) { return sum + p.end_s; });
+}
+
+std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& plans, const CommandOptions& o) {
+  Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
+  return run_plans(l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
+}
+
+std::optional<Life> life_of(const Loaded& l, const std::vector<RunRecord>& records) {
+  std::vector<RangeLoad> loads;
+  for (const RunRecord& run : records)
+    for (const WindowRecord& window : run.windows)
+      if (window.complete && window.crank_rpm > 0)
+        loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
+  if (loads.empty()) return std::nullopt;
+  return duty_cycle_life(loads, l.file.scene.fatigue);
+}
+
+void write_file(const Loaded& l, const std::vector<RunRecord>& records, const Life* life, const CommandOptions& o) {
+  if (o.out.empty()) return;
+  const Provenance from{o.version,
+                        o.command_line,
+                        l.file.path.string(),
+                        write_scene(l.file.scene),
+                        o.compiler,
+                        o.revision,
+                        std::string(enum_name(l.file.scene.solver.scheme)),
+                        l.model.belt.nodes};
+  write_results(o.out, from, records, life);
+  if (!o.quiet) fmt::print(stderr, "wrote {}\n", o.out);
+}
+
+std::vector<RunRecord> records_of(std::vector<RunOutcome>&& outcomes) {
+  std::vector<RunRecord> records;
+  for (RunOutcome& outcome : outcomes) records.push_back(std::move(outcome.record));
+  return records;
+}
+
+// Failures on standard error; whether there were any.
+bool report_failures(const std::vector<RunRecord>& records, const std::vector<RunPlan>& plans) {
+  bool failed = false;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (!records[i].status.ok()) {
+      failed = true;
+      fmt::print(stderr, "{}: {}\n", plans[i].name, text_of(records[i].status));
+    }
+    if (records[i].friction_overdamped_s > 0)
+      fmt::print(stderr,
+                 "{}: during {:.3g} s of the windows the step was too long for the friction slope, which then dissipates too much; "
+                 "set a shorter solver.step_s\n",
+                 plans[i].name, records[i].friction_overdamped_s);
+  }
+  return failed;
+}
+
+nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretched) {
+  constexpr double degree = 180 / 3.14159265358979323846;
+  nlohmann::json j{{"arm_angle_rad", layout.arm_angle},
+                   {"path_length_mm", 1e3 * layout.route.length},
+                   {"tension_n", layout.tension},
+                   {"unstretched_length_m", unstretched},
+                   {"pulleys", nlohmann::json::array()},
+                   {"spans", nlohmann::json::array()}};
+  for (int p = 0; p < m.pulleys; ++p) {
+    j["pulleys"].push_back({{"name", m.body_name[p]}, {"wrap_deg", layout.route.wrap[p] * degree}});
+    j["spans"].push_back(
+        {{"name", span_name(m.scene, static_cast<std::size_t>(p))}, {"length_mm", 1e3 * layout.route.spans[p].length}});
+  }
+  return j;
+}
+
+void print_layout(const Model& m) {
+  constexpr double degree = 180 / 3.14159265358979323846;
+  const StaticState& s = m.statics;
+  Table table({"pulley", "side", "x mm", "y mm", "wrap deg placed", "at rest", "span to next mm placed", "at rest"});
+  for (int p = 0; p < m.pulleys; ++p)
+    table.row({m.body_name[p], std::string(enum_name(m.scene.pulley[p].side)), fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].x),
+               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].y), fmt::format("{:.1f}", s.placed.route.wrap[p] * degree),
+               fmt::format("{:.1f}", s.balance.route.wrap[p] * degree), fmt::format("{:.1f}", 1e3 * s.placed.route.spans[p].length),
+               fmt::format("{:.1f}", 1e3 * s.balance.route.spans[p].length)});
+  fmt::print("{}\n", table.text(0));
+  Table numbers({"", "placed", "at rest"});
+  numbers.row({"belt path mm", fmt::format("{:.1f}", 1e3 * s.placed.route.length), fmt::format("{:.1f}", 1e3 * s.balance.route.length)});
+  numbers.row({"tension N", fmt::format("{:.1f}", s.placed.tension), fmt::format("{:.1f}", s.balance.tension)});
+  numbers.row({"unstretched length mm", fmt::format("{:.1f}", 1e3 * s.placed_unstretched_length), fmt::format("{:.1f}", 1e3 * s.unstretched_length)});
+  numbers.row({"arm angle rad", "0.0000", fmt::format("{:.4f}", s.balance.arm_angle)});
+  fmt::print("{}\n", numbers.text(0));
+  if (m.tensioner.pulley >= 0)
+    fmt::print("placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry {:.0f} N)\n\n",
+               s.placed_strain_tension);
+}
+
+}  // namespace
+
+int run_check(const CommandOptions& o) {
+  const Loaded l = load(o.scenes.at(0), o);
+  const Model& m = l.model;
+  const auto limits = step_limits(m, m.scene.solver.scheme);
+  const auto program = force_program(m);
+  if (o.json) {
+    nlohmann::json j{{"scene", o.scenes[0]},
+                     {"scheme", enum_name(m.scene.solver.scheme)},
+                     {"elements", m.belt.nodes},
+                     {"stable_step_s", stable_step(m, m.scene.solver.scheme)},
+                     {"step_s", run_step(m)},
+                     {"kernels", nlohmann::json::array()},
+                     {"quantities", quantity_names(m)},
+                     {"parameters", number_paths(l.file.scene)},
+                     {"step_limits", nlohmann::json::array()}};
+    for (const Kernel& k : program) j["kernels"].push_back(k.name);
+    for (const StepLimit& limit : limits) j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
+    if (m.pulleys > 0) {
+      j["printed"] = layout_json(m, m.statics.placed, m.statics.placed_unstretched_length);
+      j["static"] = layout_json(m, m.statics.balance, m.statics.unstretched_length);
+      j["clearances"] = nlohmann::json::array();
+      for (const Clearance& c : clearances(m.scene, m.statics.balance.route))
+        j["clearances"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
+    }
+    fmt::print("{}\n", j.dump(2));
+    return 0;
+  }
+  fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
+  if (m.pulleys > 0) {
+    print_layout(m);
+    const auto all = clearances(m.scene, m.statics.balance.route);
+    const Clearance* tightest = nullptr;
+    for (const Clearance& c : all)
+      if (c.unit == "mm" && (!tightest || c.value < tightest->value)) tightest = &c;
+    if (tightest) fmt::print("tightest clearance: {}, {:.1f} mm\n\n", tightest->name, tightest->value);
+  }
+  Table table({"step limit", "s", "formula"});
+  for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
+  fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (stable up to {:.4g})\nkernels:", table.text(0), enum_name(m.scene.solver.scheme),
+             m.belt.nodes, run_step(m), limits.front().limit_s);
+  for (std::size_t i = 0; i < program.size(); ++i) fmt::print("{} {}", i ? "," : "", program[i].name);
+  fmt::print("\n{} quantities can be studied; --json lists them\n", quantity_names(m).size());
+  return 0;
+}
+
+int run_simulate(const CommandOptions& o) {
+  const Loaded l = load(o.scenes.at(0), o);
+  const bool whole = !o.each_range && o.ranges.empty() && !l.file.scene.range.empty();
+  const auto plans = whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
+  auto outcomes = run_all(l, plans, o);
+  std::vector<KernelTime> times;
+  if (o.profile) times = outcomes.front().kernel_times;
+  const auto records = records_of(std::move(outcomes));
+  const auto life = life_of(l, records);
+  write_file(l, records, life ? &*life : nullptr, o);
+  const bool failed = report_failures(records, plans);
+
+  double wall = 0, simulated = 0, residual = 0;
+  std::int64_t steps = 0;
+  nlohmann::json ranges = nlohmann::json::object(), statuses = nlohmann::json::array();
+  std::string text;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const RunRecord& run = records[i];
+    wall = std::max(wall, run.wall_s);
+    simulated += run.simulated_s;
+    steps += run.steps;
+    nlohmann::json status = json_of(run.status);
+    status["run"] = plans[i].name;
+    statuses.push_back(std::move(status));
+    for (const WindowRecord& window : run.windows) {
+      if (window.last_sample <= window.first_sample) continue;
+      const RangeSummary summary = summarise(l.model, run, window);
+      if (std::abs(summary.energy_residual) > std::abs(residual)) residual = summary.energy_residual;
+      ranges[window.range] = json_of(summary);
+      text += text_of(summary) + "\n";
+    }
+  }
+  if (o.json) {
+    nlohmann::json j{{"status", failed ? "failed" : "ok"}, {"runs", statuses},   {"wall_s", wall},
+                     {"simulated_s", simulated},           {"steps", steps},     {"step_s", records.front().step_s},
+                     {"energy_residual", finite(residual)}, {"ranges", ranges}};
+    fmt::print("{}\n", j.dump(2));
+  } else {
+    fmt::print("{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text, simulated, wall, steps,
+               records.front().step_s, enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
+    if (o.profile) fmt::print("\n{}", text_of(times, l.model.belt.nodes));
+  }
+  return failed ? 3 : 0;
+}
+
+int run_life(const CommandOptions& o) {
+  if (o.scenes.size() > 1 && !o.out.empty())
+    throw BadInput({Problem{"--out", 0, o.out, "one file holds one scene, but several are given", "one scene with --out"}});
+  std::vector<Loaded> drives;  // all inputs are checked before the first is run
+  for (const auto& path : o.scenes) {
+    drives.push_back(load(path, o));
+    if (drives.back().file.scene.range.empty())
+      throw BadInput({Problem{path, 0, "range", "the scene has no operating range, so no life", "at least one [[range]]"}});
+  }
+  bool failed = false;
+  nlohmann::json all = nlohmann::json::array();
+  Table comparison({"scene", "life h", "log10"});
+  std::string rows;
+  for (const Loaded& l : drives) {
+    const auto plans = plans_of(l.file.scene, o.ranges, l.speed());
+    const auto records = records_of(run_all(l, plans, o));
+    const auto life = life_of(l, records);
+    write_file(l, records, life ? &*life : nullptr, o);
+    const bool bad = report_failures(records, plans) || !life || life->error;
+    failed = failed || bad;
+    if (!life) continue;
+    nlohmann::json j = json_of(*life);
+    j["scene"] = l.file.path.string();
+    j["status"] = bad ? "failed" : "ok";
+    comparison.row({l.file.path.stem().string(), fmt::format("{:.4g}", life->life_h), fmt::format("{:.2f}", life->log10_life_h)});
+    if (!o.json) fmt::print("{}{}\n\n{}\n", l.file.path.stem().string(), l.file.scene.title.empty() ? "" : ": " + l.file.scene.title, text_of(*life));
+    if (o.flank_for_life_h > 0) {
+      std::vector<RangeLoad> loads;
+      for (const RunRecord& run : records)
+        for (const WindowRecord& window : run.windows)
+          if (window.complete) loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
+      const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
+      if (height) j["flank_height_mm_for_life"] = *height;
+      if (!o.json)
+        fmt::print("{}\n\n", height ? fmt::format("fatigue.flank_height_mm = {:.4f} gives {:g} h", *height, o.flank_for_life_h)
+                                    : fmt::format("no flank height between 0.05 and 10 mm gives {:g} h", o.flank_for_life_h));
+    }
+    all.push_back(std::move(j));
+  }
+  if (o.json)
+    fmt::print("{}\n", (all.size() == 1 ? all[0] : nlohmann::json{{"scenes", all}}).dump(2));
+  else if (drives.size() > 1)
+    fmt::print("{}", comparison.text(0));
+  return failed ? 3 : 0;
+}
+
+}  // namespace beltlife

@@ -1,0 +1,29 @@
+// Owns the commands that look at one scene: check, simulate, life. main.cpp fills the options.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace beltlife {
+
+/// What every command understands; the comments are the flags.
+struct CommandOptions {
+  std::vector<std::string> scenes;    ///< positional; all but `life` take one
+  std::vector<std::string> settings;  ///< --set, and what --scheme, --step, --elements stand for
+  std::vector<std::string> ranges;    ///< --range
+  std::string out;                    ///< --out, empty: no file
+  int threads = 0;                    ///< --threads, 0: all
+  bool json = false;
+  bool quiet = false;
+  bool each_range = false;            ///< --each-range of simulate
+  bool profile = false;               ///< --profile: time by kernel
+  double flank_for_life_h = 0;        ///< --flank-for of life, 0: not asked
+  std::string command_line, version, revision, compiler;
+};
+
+/// Return the process exit code: 0 done, 3 ran but failed. Throw BadInput (exit 2).
+int run_check(const CommandOptions& options);
+int run_simulate(const CommandOptions& options);
+int run_life(const CommandOptions& options);
+
+}  // namespace beltlife

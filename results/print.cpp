@@ -1,0 +1,168 @@
+// Tables and JSON of summaries and lives: see print.h.
+#include "results/print.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "results/table.h"
+
+namespace beltlife {
+namespace {
+
+constexpr double mega = 1e-6;
+
+std::string cycles_text(double n) { return std::isfinite(n) ? fmt::format("{:.3g}", n) : "no end"; }
+
+std::string hours_text(double h) { return std::isfinite(h) ? fmt::format("{:.4g}", h) : "no end"; }
+
+}  // namespace
+
+nlohmann::json finite(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
+
+nlohmann::json json_of(const RangeSummary& s) {
+  nlohmann::json j;
+  j["crank_rpm"] = s.crank_rpm;
+  j["complete"] = s.complete;
+  if (s.output) {
+    nlohmann::json out{{"body", s.output->body},
+                       {"speed_rpm_mean", finite(s.output->speed_rpm_mean)},
+                       {"torque_n_m_mean", finite(s.output->torque_n_m_mean)},
+                       {"orders", nlohmann::json::array()}};
+    for (const OrderLine& line : s.output->orders)
+      out["orders"].push_back(
+          {{"order", line.order}, {"hz", line.hz}, {"speed_rpm", finite(line.speed_rpm)}, {"torque_n_m", finite(line.torque_n_m)}});
+    j["drive_shaft"] = std::move(out);
+  } else {
+    j["drive_shaft"] = nullptr;
+  }
+  j["spans"] = nlohmann::json::array();
+  for (const SpanSummary& span : s.spans)
+    j["spans"].push_back({{"name", span.name},
+                          {"tension_n_mean", finite(span.tension_n_mean)},
+                          {"tension_n_min", finite(span.tension_n_min)},
+                          {"tension_n_max", finite(span.tension_n_max)}});
+  j["pulleys"] = nlohmann::json::array();
+  for (const PulleySummary& p : s.pulleys)
+    j["pulleys"].push_back({{"name", p.name},
+                            {"speed_rpm_mean", finite(p.speed_rpm_mean)},
+                            {"slip_percent", p.slip_percent ? finite(*p.slip_percent) : nlohmann::json(nullptr)},
+                            {"hub_load_n", finite(p.hub_load_n)},
+                            {"hub_load_n_max", finite(p.hub_load_n_max)},
+                            {"hub_direction_deg", finite(p.hub_direction_deg)}});
+  for (std::size_t i = 0; i < s.power_w.size(); ++i) j["power_w"][std::string(energy_names[i])] = finite(s.power_w[i]);
+  j["energy_residual"] = finite(s.energy_residual);
+  for (const Quantity& q : quantities_of(s)) j["quantities"][q.name] = finite(q.value);
+  return j;
+}
+
+nlohmann::json json_of(const Life& life) {
+  nlohmann::json j{{"life_h", finite(life.life_h)}, {"log10_life_h", finite(life.log10_life_h)}, {"ranges", nlohmann::json::object()}};
+  if (life.error) j["error"] = *life.error;
+  for (const RangeLife& range : life.ranges) {
+    nlohmann::json r{{"life_h", finite(range.life_h)},
+                     {"duty_share", range.duty_share},
+                     {"damage_share", finite(range.damage_share)},
+                     {"pulleys", nlohmann::json::array()}};
+    if (range.error) r["error"] = *range.error;
+    for (const PulleyLife& p : range.pulleys)
+      r["pulleys"].push_back({{"name", p.name},
+                              {"sigma_m_mpa", finite(p.sigma_m * mega)},
+                              {"sigma_a_mpa", finite(p.sigma_a * mega)},
+                              {"cycles", finite(p.cycles)},
+                              {"damage_share", finite(p.damage_share)},
+                              {"axial_mean_mpa", finite(p.axial_mean * mega)},
+                              {"axial_alternating_mpa", finite(p.axial_alternating * mega)},
+                              {"bending_mpa", finite(p.bending * mega)},
+                              {"transverse_mpa", finite(p.transverse * mega)},
+                              {"shear_mpa", finite(p.shear * mega)}});
+    j["ranges"][range.name] = std::move(r);
+  }
+  return j;
+}
+
+nlohmann::json json_of(const RunStatus& status) {
+  nlohmann::json j{{"state", to_string(status.state)}};
+  if (!status.ok()) {
+    j["time_s"] = status.time_s;
+    j["element"] = status.element;
+    j["where"] = status.where;
+    j["cause"] = status.cause;
+    j["advice"] = status.advice;
+  }
+  return j;
+}
+
+std::string text_of(const RunStatus& status) {
+  if (status.ok()) return "ok";
+  return fmt::format("{} at {:.6f} s, {}{}\n  likely cause: {}\n  try: {}", to_string(status.state), status.time_s, status.where,
+                     status.element >= 0 ? fmt::format(", element {}", status.element) : "", status.cause, status.advice);
+}
+
+std::string text_of(const RangeSummary& s) {
+  std::string out = fmt::format("Range {}, {:g} r/min{}\n\n", s.name, s.crank_rpm, s.complete ? "" : " (incomplete)");
+  Table spans({"span", "tension N mean", "min", "max", "deflection mm min", "max"});
+  for (const SpanSummary& span : s.spans)
+    spans.row({span.name, fmt::format("{:.0f}", span.tension_n_mean), fmt::format("{:.0f}", span.tension_n_min),
+               fmt::format("{:.0f}", span.tension_n_max), fmt::format("{:.1f}", span.deflection_mm_min),
+               fmt::format("{:.1f}", span.deflection_mm_max)});
+  Table pulleys({"pulley", "speed r/min", "slip %", "hub load N", "max", "direction deg", "belt torque N m"});
+  for (const PulleySummary& p : s.pulleys)
+    pulleys.row({p.name, fmt::format("{:.1f}", p.speed_rpm_mean), p.slip_percent ? fmt::format("{:.2f}", *p.slip_percent) : "-",
+                 fmt::format("{:.0f}", p.hub_load_n), fmt::format("{:.0f}", p.hub_load_n_max),
+                 fmt::format("{:.0f}", p.hub_direction_deg), fmt::format("{:.2f}", p.torque_n_m_mean)});
+  if (!s.spans.empty()) out += spans.text(2) + "\n" + pulleys.text(2) + "\n";
+  if (s.output) {
+    out += fmt::format("  {}: mean {:.1f} r/min, {:.2f} N m; amplitudes by crank order\n", s.output->body, s.output->speed_rpm_mean,
+                       s.output->torque_n_m_mean);
+    Table orders({"order", "Hz", "speed r/min", "torque N m"});
+    for (const OrderLine& line : s.output->orders)
+      if (line.order == 0.5 || line.order == std::floor(line.order))
+        orders.row({fmt::format("{:g}", line.order), fmt::format("{:.1f}", line.hz), fmt::format("{:.3f}", line.speed_rpm),
+                    fmt::format("{:.3f}", line.torque_n_m)});
+    out += orders.text(4) + "\n";
+  }
+  Table power({"power", "W"});
+  for (std::size_t i = 0; i < s.power_w.size(); ++i)
+    if (static_cast<Energy>(i) == Energy::stored || s.power_w[i] != 0)
+      power.row({std::string(energy_names[i]), fmt::format("{:.1f}", s.power_w[i])});
+  out += power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * s.energy_residual);
+  if (s.arm_angle_mean)
+    out += fmt::format("  tensioner arm {:.4f} rad, between {:.4f} and {:.4f}\n", *s.arm_angle_mean, *s.arm_angle_min, *s.arm_angle_max);
+  return out;
+}
+
+std::string text_of(const Life& life) {
+  std::string out;
+  Table pulleys({"range", "pulley", "axial MPa mean", "alt", "bending", "transverse", "shear", "sigma_m", "sigma_a", "rounds", "damage %"});
+  for (const RangeLife& range : life.ranges)
+    for (const PulleyLife& p : range.pulleys)
+      pulleys.row({range.name, p.name, fmt::format("{:.3f}", p.axial_mean * mega), fmt::format("{:.3f}", p.axial_alternating * mega),
+                   fmt::format("{:.3f}", p.bending * mega), fmt::format("{:.3f}", p.transverse * mega), fmt::format("{:.3f}", p.shear * mega),
+                   fmt::format("{:.3f}", p.sigma_m * mega), fmt::format("{:.3f}", p.sigma_a * mega), cycles_text(p.cycles),
+                   fmt::format("{:.1f}", 100 * p.damage_share)});
+  Table ranges({"range", "time %", "rounds to failure", "life h", "log10", "damage %"});
+  for (const RangeLife& range : life.ranges)
+    ranges.row({range.name, fmt::format("{:.0f}", 100 * range.duty_share), cycles_text(range.cycles), hours_text(range.life_h),
+                fmt::format("{:.2f}", std::log10(range.life_h)), fmt::format("{:.1f}", 100 * range.damage_share)});
+  out += pulleys.text(0) + "\n" + ranges.text(0);
+  for (const RangeLife& range : life.ranges)
+    if (range.error) out += "  no life in range " + range.name + ": " + *range.error + "\n";
+  if (life.error)
+    out += "\nNo life: " + *life.error + "\n";
+  else
+    out += fmt::format("\nLife over the duty cycle: {} h (log10 {:.2f})\n", hours_text(life.life_h), life.log10_life_h);
+  return out;
+}
+
+std::string text_of(const std::vector<KernelTime>& times, int nodes) {
+  double total = 0;
+  for (const KernelTime& t : times) total += t.seconds;
+  Table table({"kernel", "share %", "ns per node and evaluation"});
+  for (const KernelTime& t : times)
+    table.row({t.name, fmt::format("{:.1f}", 100 * t.seconds / total),
+               fmt::format("{:.2f}", t.calls ? 1e9 * t.seconds / (double(t.calls) * nodes) : 0.0)});
+  return table.text(0);
+}
+
+}  // namespace beltlife

@@ -1,0 +1,27 @@
+// Owns what the commands print: tables for people, JSON for machines.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/eval/summary.h"
+#include "sim/life/life.h"
+#include "sim/model.h"
+#include "sim/record.h"
+#include "sim/schemes/scheme.h"
+
+namespace beltlife {
+
+nlohmann::json json_of(const RangeSummary& summary);
+nlohmann::json json_of(const Life& life);
+nlohmann::json json_of(const RunStatus& status);
+
+std::string text_of(const RangeSummary& summary);
+std::string text_of(const Life& life);
+std::string text_of(const RunStatus& status);
+std::string text_of(const std::vector<KernelTime>& times, int nodes);
+
+/// A number or null where it is not finite (JSON has no infinity).
+nlohmann::json finite(double value);
+
+}  // namespace beltlife

@@ -1,0 +1,156 @@
+// Named numbers of a window: see summary.h.
+#include "sim/eval/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+
+#include "sim/signal/spectrum.h"
+
+namespace beltlife {
+namespace {
+
+struct Extent {
+  double mean = 0, low = 0, high = 0;
+};
+
+std::span<const double> stretch(const RunRecord& run, const WindowRecord& window, const std::string& name) {
+  const Channel* channel = run.trace.find(name);
+  if (!channel) throw std::logic_error("no channel " + name);
+  return std::span(channel->values).subspan(window.first_sample, window.last_sample - window.first_sample);
+}
+
+Extent extent(std::span<const double> v) {
+  if (v.empty()) return {};
+  Extent e{0, v[0], v[0]};
+  for (double x : v) {
+    e.mean += x;
+    e.low = std::min(e.low, x);
+    e.high = std::max(e.high, x);
+  }
+  e.mean /= static_cast<double>(v.size());
+  return e;
+}
+
+OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord& window) {
+  OutputSummary out;
+  out.body = m.scene.output->body;
+  const auto speed = stretch(run, window, out.body + ".speed_rpm"), torque = stretch(run, window, out.body + ".torque_n_m");
+  out.speed_rpm_mean = extent(speed).mean;
+  out.torque_n_m_mean = extent(torque).mean;
+  if (m.driver.body < 0) return out;
+  const auto angle = stretch(run, window, "driver.angle_rad");
+  const auto orders = default_orders();
+  const auto of_speed = track_orders(speed, angle, orders), of_torque = track_orders(torque, angle, orders);
+  for (std::size_t i = 0; i < of_speed.size(); ++i)
+    out.orders.push_back({of_speed[i].order, of_speed[i].order * window.crank_rpm / 60, of_speed[i].amplitude, of_torque[i].amplitude});
+  return out;
+}
+
+PulleySummary pulley_of(const Model& m, const RunRecord& run, const WindowRecord& window, int p) {
+  PulleySummary s;
+  s.name = m.body_name[p];
+  const std::string prefix = "pulley." + s.name;
+  s.speed_rpm_mean = extent(stretch(run, window, s.name + ".speed_rpm")).mean;
+  if (run.trace.find(prefix + ".slip_percent")) s.slip_percent = extent(stretch(run, window, prefix + ".slip_percent")).mean;
+  s.torque_n_m_mean = extent(stretch(run, window, prefix + ".torque_n_m")).mean;
+  const auto x = stretch(run, window, prefix + ".hub_load_x_n"), y = stretch(run, window, prefix + ".hub_load_y_n");
+  std::vector<double> magnitude(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) magnitude[i] = std::hypot(x[i], y[i]);
+  const Extent e = extent(magnitude);
+  s.hub_load_n = e.mean;
+  s.hub_load_n_max = e.high;
+  s.hub_direction_deg = std::atan2(extent(y).mean, extent(x).mean) * 180 / std::numbers::pi;
+  return s;
+}
+
+}  // namespace
+
+RangeSummary summarise(const Model& m, const RunRecord& run, const WindowRecord& window) {
+  RangeSummary s;
+  s.name = window.range;
+  s.crank_rpm = window.crank_rpm;
+  s.complete = window.complete;
+  if (m.scene.output) s.output = output_of(m, run, window);
+  for (int p = 0; p < m.pulleys; ++p) {
+    const std::string name = span_name(m.scene, static_cast<std::size_t>(p));
+    const Extent t = extent(stretch(run, window, "span." + name + ".tension_n"));
+    const Extent d = extent(stretch(run, window, "span." + name + ".deflection_mm"));
+    s.spans.push_back({name, t.mean, t.low, t.high, d.low, d.high});
+    s.pulleys.push_back(pulley_of(m, run, window, p));
+  }
+  for (double joule : window.energy.joule) s.power_w.push_back(joule / (window.end_s - window.begin_s));
+  s.energy_residual = window.energy.relative_residual();
+  if (m.tensioner.pulley >= 0) {
+    const Extent a = extent(stretch(run, window, "tensioner.arm_angle_rad"));
+    s.arm_angle_mean = a.mean;
+    s.arm_angle_min = a.low;
+    s.arm_angle_max = a.high;
+  }
+  return s;
+}
+
+std::vector<Quantity> quantities_of(const RangeSummary& s) {
+  std::vector<Quantity> q;
+  const auto add = [&](const std::string& name, double value) { q.push_back({s.name + "." + name, value}); };
+  if (s.output) {
+    add(s.output->body + ".speed_rpm.mean", s.output->speed_rpm_mean);
+    add(s.output->body + ".torque_n_m.mean", s.output->torque_n_m_mean);
+    for (const OrderLine& line : s.output->orders) {
+      add(fmt::format("{}.speed_rpm.order_{:g}", s.output->body, line.order), line.speed_rpm);
+      add(fmt::format("{}.torque_n_m.order_{:g}", s.output->body, line.order), line.torque_n_m);
+    }
+  }
+  for (const SpanSummary& span : s.spans) {
+    add("span." + span.name + ".tension_n.mean", span.tension_n_mean);
+    add("span." + span.name + ".tension_n.min", span.tension_n_min);
+    add("span." + span.name + ".tension_n.max", span.tension_n_max);
+  }
+  for (const PulleySummary& p : s.pulleys) {
+    if (p.slip_percent) add("pulley." + p.name + ".slip_percent", *p.slip_percent);
+    add("pulley." + p.name + ".hub_load_n.mean", p.hub_load_n);
+    add("pulley." + p.name + ".hub_load_n.max", p.hub_load_n_max);
+  }
+  for (std::size_t i = 0; i < s.power_w.size(); ++i)
+    if (static_cast<Energy>(i) != Energy::stored) add("power_w." + std::string(energy_names[i]), s.power_w[i]);
+  add("energy_residual", s.energy_residual);
+  if (s.arm_angle_mean) {
+    add("tensioner.arm_angle_rad.mean", *s.arm_angle_mean);
+    add("tensioner.arm_angle_rad.min", *s.arm_angle_min);
+    add("tensioner.arm_angle_rad.max", *s.arm_angle_max);
+  }
+  return q;
+}
+
+std::vector<std::string> quantity_names(const Model& m) {
+  std::vector<std::string> names;
+  for (const auto& range : m.scene.range) {
+    RangeSummary s;
+    s.name = range.name;
+    s.power_w.resize(energy_names.size());
+    if (m.scene.output) {
+      s.output.emplace();
+      s.output->body = m.scene.output->body;
+      for (double order : default_orders()) s.output->orders.push_back({order, 0, 0, 0});
+    }
+    for (int p = 0; p < m.pulleys; ++p) {
+      s.spans.push_back({span_name(m.scene, static_cast<std::size_t>(p)), 0, 0, 0, 0, 0});
+      s.pulleys.emplace_back().name = m.body_name[p];
+      if (m.driver.body >= 0 && m.driver.body < m.pulleys) s.pulleys.back().slip_percent = 0;
+    }
+    if (m.tensioner.pulley >= 0) s.arm_angle_mean = s.arm_angle_min = s.arm_angle_max = 0;
+    for (auto& quantity : quantities_of(s)) names.push_back(std::move(quantity.name));
+    names.push_back(range.name + ".life_h");
+  }
+  if (!m.scene.range.empty()) {
+    names.push_back("life_h");
+    names.push_back("log10_life_h");
+  }
+  return names;
+}
+
+}  // namespace beltlife

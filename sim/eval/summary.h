@@ -1,0 +1,70 @@
+// Owns the reduction of an evaluated window to named numbers: what tables, JSON and drivers read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/model.h"
+#include "sim/record.h"
+
+namespace beltlife {
+
+struct OrderLine {
+  double order = 0;
+  double hz = 0;            ///< at the range's mean speed of the driven body
+  double speed_rpm = 0;     ///< amplitude
+  double torque_n_m = 0;    ///< amplitude
+};
+
+/// The two outputs that are compared with measurements.
+struct OutputSummary {
+  std::string body;
+  double speed_rpm_mean = 0;
+  double torque_n_m_mean = 0;
+  std::vector<OrderLine> orders;
+};
+
+struct SpanSummary {
+  std::string name;
+  double tension_n_mean = 0, tension_n_min = 0, tension_n_max = 0;
+  double deflection_mm_min = 0, deflection_mm_max = 0;
+};
+
+struct PulleySummary {
+  std::string name;
+  double speed_rpm_mean = 0;
+  std::optional<double> slip_percent;  ///< mean, behind the driven pulley; none if what is driven is no pulley
+  double hub_load_n = 0;               ///< mean of the magnitude
+  double hub_load_n_max = 0;
+  double hub_direction_deg = 0;        ///< of the mean vector, counterclockwise from x
+  double torque_n_m_mean = 0;
+};
+
+struct RangeSummary {
+  std::string name;
+  double crank_rpm = 0;
+  bool complete = false;
+  std::optional<OutputSummary> output;
+  std::vector<SpanSummary> spans;
+  std::vector<PulleySummary> pulleys;
+  std::vector<double> power_w;        ///< by Energy: mean power over the window
+  double energy_residual = 0;         ///< of the throughput
+  std::optional<double> arm_angle_mean, arm_angle_min, arm_angle_max;  ///< rad
+};
+
+RangeSummary summarise(const Model& model, const RunRecord& run, const WindowRecord& window);
+
+/// A named number, "B100.drive_shaft.speed_rpm.order_3"; units stand in the names.
+struct Quantity {
+  std::string name;
+  double value = 0;
+};
+
+/// Every quantity of a summary, in a fixed order that depends on the scene alone.
+std::vector<Quantity> quantities_of(const RangeSummary& summary);
+
+/// Names of all quantities of a scene: those of every range, each range's life, and the duty cycle's.
+std::vector<std::string> quantity_names(const Model& model);
+
+}  // namespace beltlife

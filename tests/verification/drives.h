@@ -1,0 +1,125 @@
+// Owns the small drives that the verification tests make in code, and how they are run and read.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "sim/run.h"
+#include "sim/scene/scene_io.h"
+
+namespace beltlife::drives {
+
+inline constexpr double pi = std::numbers::pi;
+
+inline SceneSpec shipped(const std::string& name) {
+  return read_scene(std::string(BELTLIFE_SCENES) + "/" + name + ".toml").scene;
+}
+
+/// The thesis drive's belt without bending, on smooth numbers; give it a length.
+inline BeltSpec belt(int elements) {
+  BeltSpec b;
+  b.elements = elements;
+  b.axial_stiffness_n = 140563;
+  b.axial_damping_n_s = 1;
+  b.mass_kg_per_m = 0.4;
+  b.ribs = 8;
+  b.friction_front = b.friction_back = 0.6;
+  return b;
+}
+
+inline PulleySpec pulley(std::string name, double x_mm, double y_mm, double diameter_mm) {
+  PulleySpec p;
+  p.name = std::move(name);
+  p.x_mm = x_mm;
+  p.y_mm = y_mm;
+  p.pitch_diameter_mm = diameter_mm;
+  p.inertia_kg_m2 = 0.003;
+  return p;
+}
+
+/// Two pulleys on a horizontal line; "driver" has a given speed, "driven" is free. Counterclockwise, so that the upper
+/// span runs from driven to driver and the lower one from driver to driven.
+inline SceneSpec two_pulleys(int elements, double distance_mm, double driver_mm, double driven_mm, double pretension_n) {
+  SceneSpec scene;
+  scene.rotation = Rotation::counterclockwise;
+  scene.belt = belt(elements);
+  scene.belt.pretension_n = pretension_n;
+  scene.pulley = {pulley("driver", 0, 0, driver_mm), pulley("driven", distance_mm, 0, driven_mm)};
+  scene.driver.emplace();
+  scene.driver->body = "driver";
+  return scene;
+}
+
+/// A free ring of belt about the origin.
+inline SceneSpec ring(int elements, double length_mm, double speed_rad_s) {
+  SceneSpec scene;
+  scene.rotation = Rotation::counterclockwise;
+  scene.belt = belt(elements);
+  scene.belt.unstretched_length_mm = length_mm;
+  scene.ring.emplace();
+  scene.ring->speed_rad_s = speed_rad_s;
+  return scene;
+}
+
+/// Speed of the driven body: rest, a ramp over [0, ramp_s], then constant.
+inline SpeedProfile ramp(double rad_s, double ramp_s) { return SpeedProfile({0, ramp_s}, {0, rad_s}); }
+
+/// A drive in motion: the model, its profile and the simulator that refers to both.
+struct Drive {
+  explicit Drive(const SceneSpec& scene, SpeedProfile given = {})
+      : model(compile(scene)),
+        profile(std::move(given)),
+        simulator(model, profile, scene.solver.scheme, scene.solver.step_s.value_or(stable_step(model, scene.solver.scheme))) {}
+  Drive(const Drive&) = delete;
+  Drive& operator=(const Drive&) = delete;
+
+  /// Advances to a time and calls `each` after every `stride` steps.
+  template <class Each>
+  void run_to(double seconds, int stride, Each each) {
+    while (simulator.time() < seconds) {
+      for (int i = 0; i < stride; ++i) simulator.advance();
+      each();
+    }
+  }
+  void run_to(double seconds) {
+    run_to(seconds, 16, [] {});
+  }
+
+  const Work& work() const { return simulator.work(); }
+  Coordinates& q() { return simulator.state().q; }
+
+  Model model;
+  SpeedProfile profile;
+  Simulator simulator;
+};
+
+/// Mean of what is added.
+struct Mean {
+  double sum = 0;
+  int count = 0;
+  void add(double x) {
+    sum += x;
+    ++count;
+  }
+  double value() const { return sum / count; }
+};
+
+/// Index of the node nearest a point.
+inline int nearest_node(const Coordinates& q, double x, double y) {
+  int best = 0;
+  for (int i = 1; i < q.x.size(); ++i)
+    if (std::hypot(q.x[i] - x, q.y[i] - y) < std::hypot(q.x[best] - x, q.y[best] - y)) best = i;
+  return best;
+}
+
+/// Prints a measured value beside its closed form and records it with the test.
+inline void report(const std::string& what, double measured, double closed_form) {
+  std::printf("    %-58s measured %.8g, closed form %.8g, off by %.2g %%\n", what.c_str(), measured, closed_form,
+              100 * (measured / closed_form - 1));
+}
+
+}  // namespace beltlife::drives
