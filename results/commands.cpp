@@ -45,12 +45,16 @@ std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& pla
   return run_plans(l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
 }
 
-std::optional<Life> life_of(const Loaded& l, const std::vector<RunRecord>& records) {
+std::vector<RangeLoad> loads_of(const Loaded& l, const std::vector<RunRecord>& records) {
   std::vector<RangeLoad> loads;
   for (const RunRecord& run : records)
     for (const WindowRecord& window : run.windows)
       if (window.complete && window.crank_rpm > 0)
         loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
+  return loads;
+}
+
+std::optional<Life> life_of(const Loaded& l, const std::vector<RangeLoad>& loads) {
   if (loads.empty()) return std::nullopt;
   return duty_cycle_life(loads, l.file.scene.fatigue);
 }
@@ -184,7 +188,7 @@ int run_simulate(const CommandOptions& o) {
   std::vector<KernelTime> times;
   if (o.profile) times = outcomes.front().kernel_times;
   const auto records = records_of(std::move(outcomes));
-  const auto life = life_of(l, records);
+  const auto life = life_of(l, loads_of(l, records));
   write_file(l, records, life ? &*life : nullptr, o);
   const bool failed = report_failures(records, plans);
 
@@ -237,21 +241,19 @@ int run_life(const CommandOptions& o) {
   for (const Loaded& l : drives) {
     const auto plans = plans_of(l.file.scene, o.ranges, l.speed());
     const auto records = records_of(run_all(l, plans, o));
-    const auto life = life_of(l, records);
+    const auto loads = loads_of(l, records);
+    const auto life = life_of(l, loads);
     write_file(l, records, life ? &*life : nullptr, o);
     const bool bad = report_failures(records, plans) || !life || life->error;
     failed = failed || bad;
     if (!life) continue;
     nlohmann::json j = json_of(*life);
+    for (const RangeLoad& load : loads) j["ranges"][load.name]["loads"] = json_of(load);
     j["scene"] = l.file.path.string();
     j["status"] = bad ? "failed" : "ok";
     comparison.row({l.file.path.stem().string(), fmt::format("{:.4g}", life->life_h), fmt::format("{:.2f}", life->log10_life_h)});
     if (!o.json) fmt::print("{}{}\n\n{}\n", l.file.path.stem().string(), l.file.scene.title.empty() ? "" : ": " + l.file.scene.title, text_of(*life));
     if (o.flank_for_life_h > 0) {
-      std::vector<RangeLoad> loads;
-      for (const RunRecord& run : records)
-        for (const WindowRecord& window : run.windows)
-          if (window.complete) loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;
       if (!o.json)

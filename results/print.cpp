@@ -81,6 +81,25 @@ nlohmann::json json_of(const Life& life) {
   return j;
 }
 
+nlohmann::json json_of(const RangeLoad& load) {
+  nlohmann::json j = nlohmann::json::array();
+  for (const PulleyLoad& p : load.pulleys) {
+    nlohmann::json forces;
+    for (std::size_t i = 0; i < EnumNames<PassForce>::names.size(); ++i) {
+      const std::string kind(EnumNames<PassForce>::names[i]);
+      forces["normal_n_per_m"][kind] = finite(p.normal_n[i] / load.element_length_m);
+      forces["tangential_n_per_m"][kind] = finite(p.tangential_n[i] / load.element_length_m);
+    }
+    forces["name"] = p.name;
+    forces["tension_high_n"] = finite(p.tension_high_n);
+    forces["tension_low_n"] = finite(p.tension_low_n);
+    forces["passes"] = p.passes;
+    forces["passes_unsampled"] = p.passes_unsampled;
+    j.push_back(std::move(forces));
+  }
+  return j;
+}
+
 nlohmann::json json_of(const RunStatus& status) {
   nlohmann::json j{{"state", to_string(status.state)}};
   if (!status.ok()) {

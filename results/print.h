@@ -14,6 +14,7 @@ namespace beltlife {
 
 nlohmann::json json_of(const RangeSummary& summary);
 nlohmann::json json_of(const Life& life);
+nlohmann::json json_of(const RangeLoad& load);
 nlohmann::json json_of(const RunStatus& status);
 
 std::string text_of(const RangeSummary& summary);

@@ -13,7 +13,7 @@ namespace {
 constexpr double rad_s = std::numbers::pi / 30;
 constexpr double rounding = 1e-12;
 
-TEST(Table, IsLinearBetweenEntriesAndExactAtThem) {
+TEST(SpeedTable, IsLinearBetweenEntriesAndExactAtThem) {
   const Table1 t{{10, 20, 40}, {1, 3, -1}};
   EXPECT_EQ(t(10), 1);
   EXPECT_EQ(t(20), 3);
@@ -22,20 +22,20 @@ TEST(Table, IsLinearBetweenEntriesAndExactAtThem) {
   EXPECT_NEAR(t(30), 1, rounding);
 }
 
-TEST(Table, IsHeldAboveItsLastEntry) {
+TEST(SpeedTable, IsHeldAboveItsLastEntry) {
   const Table1 t{{10, 20}, {1, 3}};
   EXPECT_EQ(t(20.001), 3);
   EXPECT_EQ(t(1e9), 3);
 }
 
-TEST(Table, IsProportionalBelowItsFirstEntryAndZeroFromStandstillDown) {
+TEST(SpeedTable, IsProportionalBelowItsFirstEntryAndZeroFromStandstillDown) {
   const Table1 t{{10, 20}, {1, 3}};
   EXPECT_NEAR(t(5), 0.5, rounding);
   EXPECT_EQ(t(0), 0);
   EXPECT_EQ(t(-7), 0);
 }
 
-TEST(Table, ThatBeginsAtStandstillIsZeroThereEvenIfItsFirstEntryIsNot) {
+TEST(SpeedTable, ThatBeginsAtStandstillIsZeroThereEvenIfItsFirstEntryIsNot) {
   const Table1 t{{0, 10}, {4, 6}};
   EXPECT_EQ(t(0), 0);
   EXPECT_NEAR(t(5), 5, rounding);

@@ -43,7 +43,8 @@ inline PulleySpec pulley(std::string name, double x_mm, double y_mm, double diam
 
 /// Two pulleys on a horizontal line; "driver" has a given speed, "driven" is free. Counterclockwise, so that the upper
 /// span runs from driven to driver and the lower one from driver to driven.
-inline SceneSpec two_pulleys(int elements, double distance_mm, double driver_mm, double driven_mm, double pretension_n) {
+inline SceneSpec two_pulleys(int elements, double distance_mm, double driver_mm, double driven_mm,
+                             double pretension_n) {
   SceneSpec scene;
   scene.rotation = Rotation::counterclockwise;
   scene.belt = belt(elements);
@@ -73,7 +74,8 @@ struct Drive {
   explicit Drive(const SceneSpec& scene, SpeedProfile given = {})
       : model(compile(scene)),
         profile(std::move(given)),
-        simulator(model, profile, scene.solver.scheme, scene.solver.step_s.value_or(stable_step(model, scene.solver.scheme))) {}
+        simulator(model, profile, scene.solver.scheme,
+                  scene.solver.step_s.value_or(stable_step(model, scene.solver.scheme))) {}
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
 
