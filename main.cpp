@@ -31,7 +31,7 @@ void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
 void run_flags(CLI::App& app, CommandOptions& o) {
   app.add_option("--range", o.ranges, "only this operating range (repeatable)")->type_name("NAME")->take_all()->expected(1);
   app.add_option("--threads", o.threads, "threads over ranges, 0: all")->check(CLI::NonNegativeNumber);
-  app.add_option("--out", o.out, "write an HDF5 result file")->type_name("FILE.h5");
+  app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")->type_name("FILE.h5");
 }
 
 std::string joined(int argc, char** argv) {
@@ -75,6 +75,8 @@ int run(int argc, char** argv) {
       "  beltlife simulate sim/scenes/baseline.toml --range B100 --set profile.hold_s=1.5\n"
       "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json");
   life->add_option("scene", o.scenes, "one or more scene files (TOML)")->required()->expected(1, -1);
+  life->add_option("--details", o.details, "also write tensions, slip, hub loads, orders and energy of every range to a text file")
+      ->type_name("FILE.txt");
   life->add_option("--flank-for", o.flank_for_life_h, "also print the flank height at which the life is this many hours")
       ->type_name("HOURS")
       ->check(CLI::PositiveNumber);

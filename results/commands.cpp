@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <optional>
 
@@ -24,12 +28,19 @@ struct Loaded {
   SceneFile file;
   Model model;
   std::optional<MeasuredSpeed> measured;
+  std::string out;  // result file, empty: none
   const MeasuredSpeed* speed() const { return measured ? &*measured : nullptr; }
 };
 
+std::string out_of(const std::string& scene, const CommandOptions& o) {
+  if (o.out.empty() || o.scenes.size() == 1) return o.out;
+  const std::filesystem::path path = o.out;
+  return path.parent_path() / (path.stem().string() + "_" + std::filesystem::path(scene).stem().string() + path.extension().string());
+}
+
 Loaded load(const std::string& path, const CommandOptions& o) {
-  if (!o.out.empty()) check_writable(o.out);
-  Loaded l{read_scene(path, o.settings), {}, {}};
+  Loaded l{read_scene(path, o.settings), {}, {}, out_of(path, o)};
+  if (!l.out.empty()) check_writable(l.out);
   l.model = compile(l.file.scene, path);
   if (l.file.scene.driver && l.file.scene.driver->speed_csv)
     l.measured = read_speed_csv(l.file.path.parent_path() / *l.file.scene.driver->speed_csv);
@@ -60,7 +71,7 @@ std::optional<Life> life_of(const Loaded& l, const std::vector<RangeLoad>& loads
 }
 
 void write_file(const Loaded& l, const std::vector<RunRecord>& records, const Life* life, const CommandOptions& o) {
-  if (o.out.empty()) return;
+  if (l.out.empty()) return;
   const Provenance from{o.version,
                         o.command_line,
                         l.file.path.string(),
@@ -69,8 +80,8 @@ void write_file(const Loaded& l, const std::vector<RunRecord>& records, const Li
                         o.revision,
                         std::string(enum_name(l.file.scene.solver.scheme)),
                         l.model.belt.nodes};
-  write_results(o.out, from, records, life);
-  if (!o.quiet) fmt::print(stderr, "wrote {}\n", o.out);
+  write_results(l.out, from, records, life);
+  if (!o.quiet) fmt::print(stderr, "wrote {}\n", l.out);
 }
 
 std::vector<RunRecord> records_of(std::vector<RunOutcome>&& outcomes) {
@@ -131,6 +142,22 @@ void print_layout(const Model& m) {
   if (m.tensioner.pulley >= 0)
     fmt::print("placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry {:.0f} N)\n\n",
                s.placed_strain_tension);
+}
+
+std::string heading(const Loaded& l) {
+  return l.file.path.stem().string() + (l.file.scene.title.empty() ? "" : ": " + l.file.scene.title) + "\n";
+}
+
+// One line of the comparison: the lives in the ranges of the first scene, then over the duty cycle.
+std::vector<std::string> comparison_row(const Loaded& l, const Life& life, const std::vector<RangeSpec>& ranges) {
+  std::vector<std::string> row{l.file.path.stem().string()};
+  for (const RangeSpec& range : ranges) {
+    const auto found = std::find_if(life.ranges.begin(), life.ranges.end(), [&](const RangeLife& r) { return r.name == range.name; });
+    row.push_back(found == life.ranges.end() ? "-" : fmt::format("{:.4g}", found->life_h));
+  }
+  row.push_back(fmt::format("{:.4g}", life.life_h));
+  row.push_back(fmt::format("{:.2f}", life.log10_life_h));
+  return row;
 }
 
 }  // namespace
@@ -226,8 +253,12 @@ int run_simulate(const CommandOptions& o) {
 }
 
 int run_life(const CommandOptions& o) {
-  if (o.scenes.size() > 1 && !o.out.empty())
-    throw BadInput({Problem{"--out", 0, o.out, "one file holds one scene, but several are given", "one scene with --out"}});
+  std::ofstream details_file;
+  if (!o.details.empty()) {
+    details_file.open(o.details);
+    if (!details_file) throw BadInput({Problem{"--details", 0, o.details, "cannot be written", "a file name in an existing folder"}});
+  }
+  std::string details;
   std::vector<Loaded> drives;  // all inputs are checked before the first is run
   for (const auto& path : o.scenes) {
     drives.push_back(load(path, o));
@@ -236,8 +267,11 @@ int run_life(const CommandOptions& o) {
   }
   bool failed = false;
   nlohmann::json all = nlohmann::json::array();
-  Table comparison({"scene", "life h", "log10"});
-  std::string rows;
+  std::vector<std::string> header{"life h"};
+  for (const RangeSpec& range : drives.front().file.scene.range) header.push_back(range.name);
+  header.push_back("duty cycle");
+  header.push_back("log10");
+  Table comparison(header);
   for (const Loaded& l : drives) {
     const auto plans = plans_of(l.file.scene, o.ranges, l.speed());
     const auto records = records_of(run_all(l, plans, o));
@@ -251,8 +285,12 @@ int run_life(const CommandOptions& o) {
     for (const RangeLoad& load : loads) j["ranges"][load.name]["loads"] = json_of(load);
     j["scene"] = l.file.path.string();
     j["status"] = bad ? "failed" : "ok";
-    comparison.row({l.file.path.stem().string(), fmt::format("{:.4g}", life->life_h), fmt::format("{:.2f}", life->log10_life_h)});
-    if (!o.json) fmt::print("{}{}\n\n{}\n", l.file.path.stem().string(), l.file.scene.title.empty() ? "" : ": " + l.file.scene.title, text_of(*life));
+    comparison.row(comparison_row(l, *life, drives.front().file.scene.range));
+    details += heading(l) + "\n";
+    for (const RunRecord& run : records)
+      for (const WindowRecord& window : run.windows)
+        if (window.last_sample > window.first_sample) details += text_of(summarise(l.model, run, window)) + "\n";
+    if (!o.json) fmt::print("{}\n{}\n", heading(l), text_of(*life));
     if (o.flank_for_life_h > 0) {
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;
@@ -262,6 +300,7 @@ int run_life(const CommandOptions& o) {
     }
     all.push_back(std::move(j));
   }
+  details_file << details;
   if (o.json)
     fmt::print("{}\n", (all.size() == 1 ? all[0] : nlohmann::json{{"scenes", all}}).dump(2));
   else if (drives.size() > 1)

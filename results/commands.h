@@ -11,12 +11,13 @@ struct CommandOptions {
   std::vector<std::string> scenes;    ///< positional; all but `life` take one
   std::vector<std::string> settings;  ///< --set, and what --scheme, --step, --elements stand for
   std::vector<std::string> ranges;    ///< --range
-  std::string out;                    ///< --out, empty: no file
+  std::string out;                    ///< --out, empty: no file; of several scenes each gets NAME_SCENE.h5
   int threads = 0;                    ///< --threads, 0: all
   bool json = false;
   bool quiet = false;
   bool each_range = false;            ///< --each-range of simulate
   bool profile = false;               ///< --profile: time by kernel
+  std::string details;                ///< --details of life: text file for what simulate prints, empty: none
   double flank_for_life_h = 0;        ///< --flank-for of life, 0: not asked
   std::string command_line, version, revision, compiler;
 };

@@ -79,14 +79,26 @@ TEST(TensionerFriction, LosesNothingWhileTheArmOnlyTwistsItsAnchor) {
 }
 
 TEST(TensionerFriction, HoldsAnArmOnItsBeltThatIsLoadedBelowIt) {
-  Model model = baseline({"belt.elements=256"});
+  const Model model = baseline({"belt.elements=256"});
   const double t_f = model.tensioner.friction_torque;
   const SpeedProfile rest;
   for (const double load : {-0.8, 0.8}) {
+    // A belt of chords that sinks into its pulleys is a little slacker than the static balance: a damped arm without
+    // friction finds its place first. Then friction takes hold and the load grows, smoothly, for a sudden one of 0.8
+    // would swing to 1.6 and slide.
     Model loaded = model;
-    loaded.tensioner.spring_torque += load * t_f;
-    const double start = model.initial.q.arm_angle;
+    loaded.tensioner.friction_torque = 0;
+    loaded.tensioner.damping = 3;
     Simulator s(loaded, rest, Scheme::thesis, 9e-7);
+    while (s.time() < 0.15) s.advance();
+    loaded.tensioner.friction_torque = t_f;
+    loaded.tensioner.damping = 0;
+    const double start = s.state().q.arm_angle;
+    while (s.time() < 0.25) {
+      const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * (s.time() - 0.15) / 0.1);
+      loaded.tensioner.spring_torque = model.tensioner.spring_torque + load * t_f * share;
+      s.advance();
+    }
     const auto mean_angle = [&](double until) {
       double sum = 0;
       int n = 0;
@@ -96,11 +108,11 @@ TEST(TensionerFriction, HoldsAnArmOnItsBeltThatIsLoadedBelowIt) {
       }
       return sum / n;
     };
-    mean_angle(0.3);
-    const double first = mean_angle(0.4), second = mean_angle(0.5);
+    const double first = mean_angle(0.35), second = mean_angle(0.45);
     EXPECT_LT(std::abs(second - first) / 0.1, 1e-6) << load;  // rad/s
-    // Never further than the anchor spring gives way at the load, twice that for the swing of a sudden load.
-    EXPECT_LT(std::abs(second - start), 2 * 0.8 * t_f / model.tensioner.friction_stiffness) << load;
+    // The anchor spring gives way no further than the whole friction torque twists it.
+    EXPECT_LT(std::abs(second - start), t_f / model.tensioner.friction_stiffness) << load;
+    EXPECT_LT(std::abs(s.state().arm_anchor), t_f / model.tensioner.friction_stiffness) << load;
   }
 }
 
@@ -156,8 +168,8 @@ TEST_P(TensionerSpring, TightensTheBeltAndMoreSoWhereThePathIsShorter) {
   Arm arm(model);
   const auto torque = [&](double angle) { return lengthening * arm.torque(angle, 0); };
   EXPECT_NEAR(torque(0), scene.tensioner->spring_torque_n_m, 1e-12);
-  EXPECT_NEAR(torque(-lengthening * turn), scene.tensioner->spring_torque_n_m + turn * scene.tensioner->spring_rate_n_m_per_rad,
-              1e-12);
+  EXPECT_NEAR(torque(-lengthening * turn),
+              scene.tensioner->spring_torque_n_m + turn * scene.tensioner->spring_rate_n_m_per_rad, 1e-12);
 }
 
 TEST_P(TensionerSpring, BalancesTheBeltAtRest) {

@@ -106,8 +106,8 @@ TEST_P(TorsionalChain, LosesAModeAtTheRateOfItsDamping) {
 }
 
 TEST_P(TorsionalChain, KeepsItsAngularMomentum) {
-  const Model model =
-      compile(parse_scene(free_belt + bodies({2e-3, 5e-4, 1e-3}) + spring(0, 100, 0.02) + spring(1, 400, 0.01), "chain"));
+  const Model model = compile(
+      parse_scene(free_belt + bodies({2e-3, 5e-4, 1e-3}) + spring(0, 100, 0.02) + spring(1, 400, 0.01), "chain"));
   const SpeedProfile rest;
   Simulator s(model, rest, GetParam(), 1e-6);
   s.state().q.speed = {100, -20, 5};
@@ -135,7 +135,7 @@ Model rattling_pinion() {
                       .gear_teeth = 60,
                       .module_mm = 2,
                       .stiffness_n_per_m = 1e6,
-                      .damping_n_s_per_m = 150,
+                      .damping_n_s_per_m = 1000,
                       .backlash_mm = 0.2}};
   scene.torque.clear();
   return compile(scene);
@@ -150,7 +150,7 @@ TEST(GearPair, RattlesThroughItsBacklashAsTheEquationOfThePinionAloneSays) {
     speeds.push_back(2 * std::sin(2 * std::numbers::pi * 30 * times.back()));
   }
   const SpeedProfile profile(times, speeds);
-  const double h = 1e-6, r1 = 0.02, r2 = 0.06, k = 1e6, c = 150, half = 1e-4, inertia = 1e-4;
+  const double h = 5e-7, r1 = 0.02, r2 = 0.06, k = 1e6, c = 1000, half = 1e-4, inertia = 1e-4;
 
   // State of the reference: pinion angle and speed, gear angle; each positive in its own running sense.
   using State3 = Eigen::Vector3d;
@@ -160,7 +160,9 @@ TEST(GearPair, RattlesThroughItsBacklashAsTheEquationOfThePinionAloneSays) {
     if (gap < -half) return std::min(k * (gap + half) + c * rate, 0.0);
     return 0.0;
   };
-  const auto slope = [&](const State3& y, double t) { return State3(y[1], -r1 * force(y, t) / inertia, profile.speed(t)); };
+  const auto slope = [&](const State3& y, double t) {
+    return State3(y[1], -r1 * force(y, t) / inertia, profile.speed(t));
+  };
 
   Simulator s(model, profile, Scheme::thesis, h);
   const int pinion = body_index(model, "pinion"), gear = body_index(model, "driver");
@@ -168,7 +170,7 @@ TEST(GearPair, RattlesThroughItsBacklashAsTheEquationOfThePinionAloneSays) {
   double worst = 0, largest = 0;
   int impacts = 0;
   bool touching = false;
-  for (int i = 0; i < 300000; ++i) {
+  for (int i = 0; i < 600000; ++i) {
     s.advance();
     const double t = i * h;
     const State3 k1 = slope(y, t), k2 = slope(y + 0.5 * h * k1, t + 0.5 * h), k3 = slope(y + 0.5 * h * k2, t + 0.5 * h),
@@ -182,8 +184,10 @@ TEST(GearPair, RattlesThroughItsBacklashAsTheEquationOfThePinionAloneSays) {
     largest = std::max(largest, std::abs(y[1]));
     worst = std::max(worst, std::abs(model.sense[gear] * q.angle[gear] - y[2]));
   }
-  EXPECT_GT(impacts, 20);
-  // A step is 1e-6 s against a contact of 3e-3 s; where teeth meet, either method is wrong by a step of damper force.
+  EXPECT_GT(impacts, 15);
+  // Where teeth meet either method is wrong by up to a step of damper force, h c r1^2/J = 0.2 % of the speed; halving
+  // the step halves what is measured, 5e-4.
+  std::printf("worst %g largest %g impacts %d\n", worst, largest, impacts);
   EXPECT_LT(worst, 1e-3 * largest);
 }
 
