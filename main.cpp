@@ -1,6 +1,9 @@
 // The beltlife command: hands the command line to the commands and turns bad input into exit code 2.
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 
@@ -16,6 +19,22 @@ struct Shorthand {
   std::string scheme, step, elements;
 };
 
+// Says what is allowed in words; CLI11's own bounds print as the largest double.
+CLI::Validator number_where(bool (*allowed)(double), const std::string& words) {
+  return CLI::Validator(
+      [allowed, words](const std::string& text) {
+        double value = 0;
+        const bool fits = CLI::detail::lexical_cast(text, value) && allowed(value);
+        return fits ? std::string() : "\"" + text + "\" is not " + words;
+      },
+      "");
+}
+
+// An empty file name comes from a shell variable that is not set; it does not mean "no file".
+CLI::Validator not_empty() {
+  return CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "names no file" : ""); }, "");
+}
+
 void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
   app.add_option("--set", o.settings, "change a scene field by path, e.g. --set tensioner.friction_torque_n_m=4 (repeatable)")
       ->type_name("PATH=VALUE")
@@ -30,8 +49,12 @@ void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
 
 void run_flags(CLI::App& app, CommandOptions& o) {
   app.add_option("--range", o.ranges, "only this operating range (repeatable)")->type_name("NAME")->take_all()->expected(1);
-  app.add_option("--threads", o.threads, "threads over ranges, 0: all")->check(CLI::NonNegativeNumber);
-  app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")->type_name("FILE.h5");
+  app.add_option("--threads", o.threads, "threads over ranges, 0: all")
+      ->type_name("N")
+      ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); }, "a whole number from 0 to 1024"));
+  app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")
+      ->type_name("FILE.h5")
+      ->check(not_empty());
 }
 
 std::string joined(int argc, char** argv) {
@@ -65,9 +88,10 @@ int run(int argc, char** argv) {
     common_flags(*command, o, shorthand);
     if (command != check) run_flags(*command, o);
   }
-  check->add_option("scene", o.scenes, "scene file (TOML)")->required()->expected(1);
+  std::string scene;  // not the list: a vector positional would swallow the value of a flag that does not exist
+  check->add_option("scene", scene, "scene file (TOML)")->required();
   check->footer("Example:\n  beltlife check sim/scenes/baseline.toml --json");
-  simulate->add_option("scene", o.scenes, "scene file (TOML)")->required()->expected(1);
+  simulate->add_option("scene", scene, "scene file (TOML)")->required();
   simulate->add_flag("--each-range", o.each_range, "every range alone, in parallel, instead of the profile");
   simulate->add_flag("--profile", o.profile, "print the time spent in each kernel");
   simulate->footer(
@@ -76,10 +100,11 @@ int run(int argc, char** argv) {
       "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json");
   life->add_option("scene", o.scenes, "one or more scene files (TOML)")->required()->expected(1, -1);
   life->add_option("--details", o.details, "also write tensions, slip, hub loads, orders and energy of every range to a text file")
-      ->type_name("FILE.txt");
+      ->type_name("FILE.txt")
+      ->check(not_empty());
   life->add_option("--flank-for", o.flank_for_life_h, "also print the flank height at which the life is this many hours")
       ->type_name("HOURS")
-      ->check(CLI::PositiveNumber);
+      ->check(number_where([](double h) { return h > 0 && std::isfinite(h); }, "a finite number above 0"));
   life->footer(
       "Examples:\n"
       "  beltlife life sim/scenes/two_pulley.toml\n"
@@ -98,6 +123,7 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
+  if (*check || *simulate) o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
@@ -112,7 +138,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (std::fflush(stdout) == 0 && std::cout.flush()) return code;
+    std::fprintf(stderr, "beltlife: the answer cannot be written to standard output: %s\n", std::strerror(errno));
+    return 3;
   } catch (const beltlife::BadInput& bad) {
     std::fprintf(stderr, "%s\n", bad.what());
     return 2;

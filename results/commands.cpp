@@ -38,14 +38,30 @@ std::string out_of(const std::string& scene, const CommandOptions& o) {
   return path.parent_path() / (path.stem().string() + "_" + std::filesystem::path(scene).stem().string() + path.extension().string());
 }
 
+// A measurement that misses part of the profile would run on at its last speed. One sampling interval is forgiven.
+void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const std::string& file) {
+  if (scene.range.empty()) return;
+  const auto& t = measured.time_s;
+  const double wanted = plan_profile(scene, &measured).end_s;
+  if (t.front() <= t[1] - t.front() && t.back() + (t.back() - t[t.size() - 2]) >= wanted) return;
+  throw BadInput({Problem{file, 0, "driver.speed_csv", fmt::format("covers {:g} to {:g} s, the profile runs from 0 to {:g} s", t.front(), t.back(), wanted),
+                          "a measurement of the whole profile, or shorter profile.hold_s, or fewer ranges"}});
+}
+
 Loaded load(const std::string& path, const CommandOptions& o) {
   Loaded l{read_scene(path, o.settings), {}, {}, out_of(path, o)};
   if (!l.out.empty()) check_writable(l.out);
   l.model = compile(l.file.scene, path);
-  if (l.file.scene.driver && l.file.scene.driver->speed_csv)
-    l.measured = read_speed_csv(l.file.path.parent_path() / *l.file.scene.driver->speed_csv);
+  if (l.file.scene.driver && l.file.scene.driver->speed_csv) {
+    const auto csv = l.file.path.parent_path() / *l.file.scene.driver->speed_csv;
+    l.measured = read_speed_csv(csv);
+    refuse_short(*l.measured, l.file.scene, csv.string());
+  }
   return l;
 }
+
+// A path may hold bytes that are no UTF-8; JSON cannot, and shows a replacement character.
+std::string text_of(const nlohmann::json& j) { return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace); }
 
 double seconds_of(const std::vector<RunPlan>& plans) {
   return std::accumulate(plans.begin(), plans.end(), 0.0, [](double sum, const RunPlan& p) { return sum + p.end_s; });
@@ -107,6 +123,15 @@ bool report_failures(const std::vector<RunRecord>& records, const std::vector<Ru
   return failed;
 }
 
+nlohmann::json json_of_runs(const std::vector<RunRecord>& records, const std::vector<RunPlan>& plans) {
+  nlohmann::json runs = nlohmann::json::array();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    runs.push_back(json_of(records[i].status));
+    runs.back()["run"] = plans[i].name;
+  }
+  return runs;
+}
+
 nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretched) {
   constexpr double degree = 180 / 3.14159265358979323846;
   nlohmann::json j{{"arm_angle_rad", layout.arm_angle},
@@ -142,6 +167,19 @@ void print_layout(const Model& m) {
   if (m.tensioner.pulley >= 0)
     fmt::print("placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry {:.0f} N)\n\n",
                s.placed_strain_tension);
+}
+
+std::vector<RangeSummary> summaries_of(const Loaded& l, const std::vector<RunRecord>& records) {
+  std::vector<RangeSummary> summaries;
+  for (const RunRecord& run : records)
+    for (const WindowRecord& window : run.windows) {
+      if (window.last_sample <= window.first_sample) continue;
+      summaries.push_back(summarise(l.model, run, window));
+      if (summaries.back().drift > 0.03)
+        fmt::print(stderr, "{}: not settled: a span's mean tension changes by {:.0f} % within the window; try a longer profile.hold_s\n",
+                   window.range, 100 * summaries.back().drift);
+    }
+  return summaries;
 }
 
 std::string heading(const Loaded& l) {
@@ -186,7 +224,7 @@ int run_check(const CommandOptions& o) {
       for (const Clearance& c : clearances(m.scene, m.statics.balance.route))
         j["clearances"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
     }
-    fmt::print("{}\n", j.dump(2));
+    fmt::print("{}\n", text_of(j));
     return 0;
   }
   fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
@@ -213,7 +251,14 @@ int run_simulate(const CommandOptions& o) {
   const auto plans = whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
   auto outcomes = run_all(l, plans, o);
   std::vector<KernelTime> times;
-  if (o.profile) times = outcomes.front().kernel_times;
+  for (const RunOutcome& outcome : outcomes) {
+    if (times.empty()) times.resize(outcome.kernel_times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      times[i].name = outcome.kernel_times[i].name;
+      times[i].seconds += outcome.kernel_times[i].seconds;
+      times[i].calls += outcome.kernel_times[i].calls;
+    }
+  }
   const auto records = records_of(std::move(outcomes));
   const auto life = life_of(l, loads_of(l, records));
   write_file(l, records, life ? &*life : nullptr, o);
@@ -221,29 +266,25 @@ int run_simulate(const CommandOptions& o) {
 
   double wall = 0, simulated = 0, residual = 0;
   std::int64_t steps = 0;
-  nlohmann::json ranges = nlohmann::json::object(), statuses = nlohmann::json::array();
+  nlohmann::json ranges = nlohmann::json::object();
   std::string text;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const RunRecord& run = records[i];
     wall = std::max(wall, run.wall_s);
     simulated += run.simulated_s;
     steps += run.steps;
-    nlohmann::json status = json_of(run.status);
-    status["run"] = plans[i].name;
-    statuses.push_back(std::move(status));
-    for (const WindowRecord& window : run.windows) {
-      if (window.last_sample <= window.first_sample) continue;
-      const RangeSummary summary = summarise(l.model, run, window);
-      if (std::abs(summary.energy_residual) > std::abs(residual)) residual = summary.energy_residual;
-      ranges[window.range] = json_of(summary);
-      text += text_of(summary) + "\n";
-    }
+  }
+  for (const RangeSummary& summary : summaries_of(l, records)) {
+    if (std::abs(summary.energy_residual) > std::abs(residual)) residual = summary.energy_residual;
+    ranges[summary.name] = json_of(summary);
+    text += text_of(summary) + "\n";
   }
   if (o.json) {
-    nlohmann::json j{{"status", failed ? "failed" : "ok"}, {"runs", statuses},   {"wall_s", wall},
+    nlohmann::json j{{"status", failed ? "failed" : "ok"}, {"runs", json_of_runs(records, plans)}, {"wall_s", wall},
                      {"simulated_s", simulated},           {"steps", steps},     {"step_s", records.front().step_s},
                      {"energy_residual", finite(residual)}, {"ranges", ranges}};
-    fmt::print("{}\n", j.dump(2));
+    for (const KernelTime& t : times) j["kernel_times"].push_back({{"name", t.name}, {"seconds", t.seconds}, {"calls", t.calls}});
+    fmt::print("{}\n", text_of(j));
   } else {
     fmt::print("{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text, simulated, wall, steps,
                records.front().step_s, enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
@@ -253,17 +294,15 @@ int run_simulate(const CommandOptions& o) {
 }
 
 int run_life(const CommandOptions& o) {
-  std::ofstream details_file;
-  if (!o.details.empty()) {
-    details_file.open(o.details);
-    if (!details_file) throw BadInput({Problem{"--details", 0, o.details, "cannot be written", "a file name in an existing folder"}});
-  }
+  if (!o.details.empty()) check_writable(o.details);
   std::string details;
   std::vector<Loaded> drives;  // all inputs are checked before the first is run
+  std::vector<std::vector<RunPlan>> plans_of_drive;
   for (const auto& path : o.scenes) {
     drives.push_back(load(path, o));
     if (drives.back().file.scene.range.empty())
       throw BadInput({Problem{path, 0, "range", "the scene has no operating range, so no life", "at least one [[range]]"}});
+    plans_of_drive.push_back(plans_of(drives.back().file.scene, o.ranges, drives.back().speed()));
   }
   bool failed = false;
   nlohmann::json all = nlohmann::json::array();
@@ -272,25 +311,28 @@ int run_life(const CommandOptions& o) {
   header.push_back("duty cycle");
   header.push_back("log10");
   Table comparison(header);
-  for (const Loaded& l : drives) {
-    const auto plans = plans_of(l.file.scene, o.ranges, l.speed());
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const Loaded& l = drives[i];
+    const auto& plans = plans_of_drive[i];
     const auto records = records_of(run_all(l, plans, o));
     const auto loads = loads_of(l, records);
-    const auto life = life_of(l, loads);
-    write_file(l, records, life ? &*life : nullptr, o);
-    const bool bad = report_failures(records, plans) || !life || life->error;
+    const Life life = duty_cycle_life(loads, l.file.scene.fatigue);  // without loads it says why there is no life
+    write_file(l, records, loads.empty() ? nullptr : &life, o);
+    const bool bad = report_failures(records, plans) || life.error;
     failed = failed || bad;
-    if (!life) continue;
-    nlohmann::json j = json_of(*life);
+    nlohmann::json j = json_of(life);
+    j["runs"] = json_of_runs(records, plans);
     for (const RangeLoad& load : loads) j["ranges"][load.name]["loads"] = json_of(load);
     j["scene"] = l.file.path.string();
     j["status"] = bad ? "failed" : "ok";
-    comparison.row(comparison_row(l, *life, drives.front().file.scene.range));
+    comparison.row(comparison_row(l, life, drives.front().file.scene.range));
+    const auto summaries = summaries_of(l, records);
     details += heading(l) + "\n";
-    for (const RunRecord& run : records)
-      for (const WindowRecord& window : run.windows)
-        if (window.last_sample > window.first_sample) details += text_of(summarise(l.model, run, window)) + "\n";
-    if (!o.json) fmt::print("{}\n{}\n", heading(l), text_of(*life));
+    for (const RangeSummary& summary : summaries) {
+      details += text_of(summary) + "\n";
+      if (summary.complete) j["ranges"][summary.name]["power_w"] = json_of(summary)["power_w"];
+    }
+    if (!o.json) fmt::print("{}\n{}\n{}\n", heading(l), loss_table(summaries), text_of(life));
     if (o.flank_for_life_h > 0) {
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;
@@ -300,9 +342,10 @@ int run_life(const CommandOptions& o) {
     }
     all.push_back(std::move(j));
   }
-  details_file << details;
+  if (!o.details.empty() && !(std::ofstream(o.details) << details << std::flush))
+    throw BadInput({Problem{o.details, 0, "", "cannot be written", "free space on the disk, or a path elsewhere"}});
   if (o.json)
-    fmt::print("{}\n", (all.size() == 1 ? all[0] : nlohmann::json{{"scenes", all}}).dump(2));
+    fmt::print("{}\n", text_of(all.size() == 1 ? all[0] : nlohmann::json{{"scenes", all}}));
   else if (drives.size() > 1)
     fmt::print("{}", comparison.text(0));
   return failed ? 3 : 0;

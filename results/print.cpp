@@ -52,6 +52,7 @@ nlohmann::json json_of(const RangeSummary& s) {
                             {"hub_direction_deg", finite(p.hub_direction_deg)}});
   for (std::size_t i = 0; i < s.power_w.size(); ++i) j["power_w"][std::string(energy_names[i])] = finite(s.power_w[i]);
   j["energy_residual"] = finite(s.energy_residual);
+  j["drift"] = finite(s.drift);
   for (const Quantity& q : quantities_of(s)) j["quantities"][q.name] = finite(q.value);
   return j;
 }
@@ -146,9 +147,23 @@ std::string text_of(const RangeSummary& s) {
     if (static_cast<Energy>(i) == Energy::stored || s.power_w[i] != 0)
       power.row({std::string(energy_names[i]), fmt::format("{:.1f}", s.power_w[i])});
   out += power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * s.energy_residual);
+  out += fmt::format("  mean span tensions change by {:.2f} % at most from the first half of the window to the second\n", 100 * s.drift);
   if (s.arm_angle_mean)
     out += fmt::format("  tensioner arm {:.4f} rad, between {:.4f} and {:.4f}\n", *s.arm_angle_mean, *s.arm_angle_min, *s.arm_angle_max);
   return out;
+}
+
+std::string loss_table(const std::vector<RangeSummary>& ranges) {
+  Table table({"range", "torque tables W", "driver W", "belt bending loss W", "friction W", "other losses W", "not accounted %"});
+  for (const RangeSummary& s : ranges) {
+    const auto power = [&](Energy e) { return s.power_w[static_cast<std::size_t>(e)]; };
+    const double other = power(Energy::lost_belt_axial) + power(Energy::lost_contact_normal) + power(Energy::lost_shafts) +
+                         power(Energy::lost_gears) + power(Energy::lost_tensioner_damping) + power(Energy::lost_tensioner_friction);
+    table.row({s.name, fmt::format("{:.0f}", power(Energy::work_torque_tables)), fmt::format("{:.0f}", power(Energy::work_driver)),
+               fmt::format("{:.0f}", power(Energy::lost_belt_bending)), fmt::format("{:.0f}", power(Energy::lost_friction)),
+               fmt::format("{:.0f}", other), fmt::format("{:.3f}", 100 * s.energy_residual)});
+  }
+  return table.text(0);
 }
 
 std::string text_of(const Life& life) {

@@ -19,6 +19,8 @@ nlohmann::json json_of(const RunStatus& status);
 
 std::string text_of(const RangeSummary& summary);
 std::string text_of(const Life& life);
+/// What the torque tables and the driver put in, and what bending the belt costs beside it, per range.
+std::string loss_table(const std::vector<RangeSummary>& ranges);
 std::string text_of(const RunStatus& status);
 std::string text_of(const std::vector<KernelTime>& times, int nodes);
 

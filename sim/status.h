@@ -5,7 +5,7 @@
 
 namespace beltlife {
 
-enum class RunState { ok, diverged, off_pulley, not_settled };
+enum class RunState { ok, diverged, off_pulley };
 
 struct RunStatus {
   RunState state = RunState::ok;
@@ -19,7 +19,7 @@ struct RunStatus {
 };
 
 inline const char* to_string(RunState state) {
-  constexpr const char* names[] = {"ok", "diverged", "off_pulley", "not_settled"};
+  constexpr const char* names[] = {"ok", "diverged", "off_pulley"};
   return names[static_cast<int>(state)];
 }
 

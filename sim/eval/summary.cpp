@@ -78,7 +78,11 @@ RangeSummary summarise(const Model& m, const RunRecord& run, const WindowRecord&
   if (m.scene.output) s.output = output_of(m, run, window);
   for (int p = 0; p < m.pulleys; ++p) {
     const std::string name = span_name(m.scene, static_cast<std::size_t>(p));
-    const Extent t = extent(stretch(run, window, "span." + name + ".tension_n"));
+    const auto tension = stretch(run, window, "span." + name + ".tension_n");
+    const Extent t = extent(tension);
+    const std::size_t half = tension.size() / 2;
+    const double change = extent(tension.subspan(half)).mean - extent(tension.first(half)).mean;
+    if (t.mean > 0) s.drift = std::max(s.drift, std::abs(change) / t.mean);
     const Extent d = extent(stretch(run, window, "span." + name + ".deflection_mm"));
     s.spans.push_back({name, t.mean, t.low, t.high, d.low, d.high});
     s.pulleys.push_back(pulley_of(m, run, window, p));
@@ -118,6 +122,7 @@ std::vector<Quantity> quantities_of(const RangeSummary& s) {
   for (std::size_t i = 0; i < s.power_w.size(); ++i)
     if (static_cast<Energy>(i) != Energy::stored) add("power_w." + std::string(energy_names[i]), s.power_w[i]);
   add("energy_residual", s.energy_residual);
+  add("drift", s.drift);
   if (s.arm_angle_mean) {
     add("tensioner.arm_angle_rad.mean", *s.arm_angle_mean);
     add("tensioner.arm_angle_rad.min", *s.arm_angle_min);

@@ -50,6 +50,9 @@ struct RangeSummary {
   std::vector<PulleySummary> pulleys;
   std::vector<double> power_w;        ///< by Energy: mean power over the window
   double energy_residual = 0;         ///< of the throughput
+  /// Largest change of a span's mean tension from the first half of the window to the second, of its mean: a drive
+  /// that has not settled shows here.
+  double drift = 0;
   std::optional<double> arm_angle_mean, arm_angle_min, arm_angle_max;  ///< rad
 };
 

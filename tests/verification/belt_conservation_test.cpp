@@ -87,7 +87,6 @@ TEST(BeltConservation, NodeForcesAreBeltAndContactForcesAndNothingElse) {
   EXPECT_LT(std::abs(total.moment), 1e-12 * total.moment_scale);
 }
 
-// Positions of a drive after a rough start; `map` moves the scene, `back` maps a point of the moved drive back.
 SceneSpec quick_baseline() {
   SceneSpec scene = drives::shipped("baseline");
   scene.belt.elements = 128;
@@ -131,7 +130,7 @@ TEST(BeltConservation, AMirroredDriveMovesInMirrorImage) {
   for (int body = 0; body < a.model.bodies; ++body)
     EXPECT_NEAR(a.q().angle[body], -b.q().angle[body], motion_tolerance / 0.01) << a.model.body_name[body];
   EXPECT_NEAR(a.q().arm_angle, -b.q().arm_angle, motion_tolerance / 0.09);
-  EXPECT_GT(std::abs(a.q().angle[0]), 1) << "the drive pulley has hardly turned";
+  EXPECT_GT(std::abs(a.q().angle[0]), 0.5) << "the drive pulley has hardly turned";
 }
 
 TEST(BeltConservation, ARotatedDriveMovesAlike) {
