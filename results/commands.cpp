@@ -51,7 +51,11 @@ void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const s
 Loaded load(const std::string& path, const CommandOptions& o) {
   Loaded l{read_scene(path, o.settings), {}, {}, out_of(path, o)};
   if (!l.out.empty()) check_writable(l.out);
-  l.model = compile(l.file.scene, path);
+  try {
+    l.model = compile(l.file.scene, path);
+  } catch (const BadInput& bad) {
+    throw located(l.file, bad);
+  }
   if (l.file.scene.driver && l.file.scene.driver->speed_csv) {
     const auto csv = l.file.path.parent_path() / *l.file.scene.driver->speed_csv;
     l.measured = read_speed_csv(csv);

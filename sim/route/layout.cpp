@@ -39,6 +39,8 @@ int orientation_of(const SceneSpec& scene) {
   return best;
 }
 
+std::string key_of(const SceneSpec& scene, std::size_t pulley) { return "pulley." + scene.pulley[pulley].name + ".x_mm"; }
+
 double distance_to_span(const Span& span, double x, double y) {
   const double s = (x - span.from.x) * span.direction.x + (y - span.from.y) * span.direction.y;
   const double c = std::clamp(s, 0.0, span.length);
@@ -120,11 +122,20 @@ Layout layout_at(const SceneSpec& scene, int orientation, double angle) {
 void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, std::string_view file, const char* where) {
   std::vector<Problem> problems;
   for (const auto& c : clearances(scene, route))
-    if (c.value < 0) problems.push_back({std::string(file), 0, "pulley", c.words + where, ""});
+    if (c.value < 0) problems.push_back({std::string(file), 0, c.key, c.words + where, "pulleys and spans clear of each other"});
   if (problems.empty() && !closed)
     problems.push_back({std::string(file), 0, "pulley", std::string("the belt does not close as a simple loop") + where,
                         "list the pulleys in the order in which the belt passes them, with the right side each"});
   if (!problems.empty()) throw BadInput(std::move(problems));
+}
+
+// A polyester or aramid cord breaks at a few per cent.
+void refuse_overstretched(const StaticState& s, std::string_view file) {
+  const double strain = s.balance.route.length / s.unstretched_length - 1;
+  if (strain > 0.1)
+    refuse(file, "belt.unstretched_length_mm",
+           fmt::format("the belt would be stretched by {:.0f} % at rest and carry {:.0f} N", 100 * strain, s.balance.tension),
+           fmt::format("at least {:.0f} mm for this layout", 1e3 * s.balance.route.length / 1.1));
 }
 
 }  // namespace
@@ -157,7 +168,7 @@ std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
     for (std::size_t j = i + 1; j < count; ++j) {
       const double gap = 1e3 * (std::hypot(c[i].x - c[j].x, c[i].y - c[j].y) - c[i].radius - c[j].radius);
       out.push_back({fmt::format("pulleys {} and {}", scene.pulley[i].name, scene.pulley[j].name), gap, "mm",
-                     fmt::format("pulleys {} and {} overlap by {:.1f} mm", scene.pulley[i].name, scene.pulley[j].name, -gap)});
+                     fmt::format("pulleys {} and {} overlap by {:.1f} mm", scene.pulley[i].name, scene.pulley[j].name, -gap), key_of(scene, j)});
       overlap = overlap || gap < 0;
     }
   if (overlap || !route.simple) {
@@ -168,19 +179,19 @@ std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
         if (missing > -120)
           out.push_back({"wrap on " + scene.pulley[i].name, missing, "deg",
                          fmt::format("the wrap on {} vanishes: the belt would pass it on its {} side by {:.1f} degrees",
-                                     scene.pulley[i].name, scene.pulley[i].side == Side::front ? "back" : "front", -missing)});
+                                     scene.pulley[i].name, scene.pulley[i].side == Side::front ? "back" : "front", -missing), key_of(scene, i)});
       }
     return out;
   }
   for (std::size_t i = 0; i < count; ++i)
-    out.push_back({"wrap on " + scene.pulley[i].name, route.wrap[i] / degree, "deg", ""});
+    out.push_back({"wrap on " + scene.pulley[i].name, route.wrap[i] / degree, "deg", "", key_of(scene, i)});
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
       if (j == i || j == (i + 1) % count) continue;
       const double gap = 1e3 * (distance_to_span(route.spans[i], c[j].x, c[j].y) - c[j].radius);
       out.push_back({fmt::format("belt {} and pulley {}", span_name(scene, i), scene.pulley[j].name), gap, "mm",
                      fmt::format("the belt between {} and {} runs through pulley {} by {:.1f} mm", scene.pulley[i].name,
-                                 scene.pulley[(i + 1) % count].name, scene.pulley[j].name, -gap)});
+                                 scene.pulley[(i + 1) % count].name, scene.pulley[j].name, -gap), key_of(scene, j)});
     }
   return out;
 }
@@ -203,12 +214,13 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
     s.placed.tension = s.placed_strain_tension = tension_of(s.placed.route.length);
     s.placed_unstretched_length = s.unstretched_length;
     s.balance = s.placed;
+    refuse_overstretched(s, file);
     return s;
   }
 
   const double gradient = s.placed.length_per_arm_angle;
   if (std::abs(gradient) < 1e-6)
-    refuse(file, "tensioner", "turning the arm does not change the length of the belt path",
+    refuse(file, "tensioner.pivot_x_mm", "turning the arm does not change the length of the belt path",
            "a pivot off the line of the tensioner pulley's hub load");
   const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0};
 
@@ -239,6 +251,7 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
   s.balance = layout_at(scene, s.orientation, angle);
   s.balance.tension = tension_of(s.balance.route.length);
   refuse_infeasible(scene, s.balance.route, true, file, " where the tensioner comes to rest");
+  refuse_overstretched(s, file);
   return s;
 }
 

@@ -15,6 +15,7 @@ struct Clearance {
   double value = 0;   ///< in `unit`
   std::string unit;   ///< "mm" or "deg"
   std::string words;  ///< the refusal, where value < 0
+  std::string key;    ///< scene field to look at first
 };
 
 /// The drive at one arm position. Angles in rad, counterclockwise positive, 0 where the scene places the arm.

@@ -80,22 +80,45 @@ std::string to_string(const Problem& problem) {
 BadInput::BadInput(std::vector<Problem> problems)
     : std::runtime_error(lines_of(problems)), problems_(std::move(problems)) {}
 
-SceneSpec parse_scene(std::string_view text, std::string_view name, const std::vector<std::string>& settings) {
-  ReadLog log;
-  log.file = name;
-  SceneSpec scene = read_spec<SceneSpec>(parse_toml(text, name), log);
+namespace {
+
+/// Text to a checked scene; `log` keeps where each field stands.
+SceneSpec parse(std::string_view text, const std::vector<std::string>& settings, ReadLog& log) {
+  SceneSpec scene = read_spec<SceneSpec>(parse_toml(text, log.file), log);
   for (const std::string& setting : settings) apply_setting(scene, setting, log);
   check_scene(scene, log);
   throw_problems(std::move(log.problems));
   return scene;
 }
 
+}  // namespace
+
+SceneSpec parse_scene(std::string_view text, std::string_view name, const std::vector<std::string>& settings) {
+  ReadLog log;
+  log.file = name;
+  return parse(text, settings, log);
+}
+
 SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  SceneFile file;
-  file.path = path;
-  file.text = read_text(path);
-  file.scene = parse_scene(file.text, path.string(), settings);
+  ReadLog log;
+  log.file = path.string();
+  SceneFile file{{}, path, read_text(path), {}};
+  file.scene = parse(file.text, settings, log);
+  file.lines = std::move(log.lines);
   return file;
+}
+
+BadInput located(const SceneFile& file, const BadInput& bad) {
+  SceneSpec copy = file.scene;  // visit() is not const
+  std::vector<Problem> problems = bad.problems();
+  for (Problem& problem : problems) {
+    if (problem.line > 0) continue;
+    at_path(copy, problem.key, [&](auto&, const Rule&, const std::string& place) {
+      const auto line = file.lines.find(place);
+      if (line != file.lines.end()) problem.line = line->second;
+    });
+  }
+  return BadInput(std::move(problems));
 }
 
 std::string write_scene(const SceneSpec& scene) { return write_spec(scene); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,7 +39,12 @@ struct SceneFile {
   SceneSpec scene;
   std::filesystem::path path;
   std::string text;  ///< the file as read
+  std::map<std::string, int> lines;  ///< where each field stands; for located()
 };
+
+/// The same problems with the file's lines, where their keys name fields of this file: for refusals that come after
+/// reading, of layouts that cannot be built.
+BadInput located(const SceneFile& file, const BadInput& bad);
 
 /// Reads a scene file, applies `settings` ("PATH=VALUE", as of --set) in order, and checks everything that can be
 /// checked without geometry: keys, types, limits, unique names, references, table lengths and order, belt length

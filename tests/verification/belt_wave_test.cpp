@@ -4,6 +4,7 @@
 namespace beltlife {
 namespace {
 
+using drives::Crossings;
 using drives::Drive;
 using drives::pi;
 
@@ -31,24 +32,6 @@ class Strips {
   Drive drive;
   int half;
   double end_x;
-};
-
-// Frequency of a signal from its rising zero crossings, each interpolated between two samples.
-struct Crossings {
-  double last_time = 0, last_value = 0, first = -1, latest = 0;
-  int count = 0;
-  void add(double time, double value) {
-    if (time > 0 && last_value < 0 && value >= 0) {
-      latest = last_time - last_value * (time - last_time) / (value - last_value);
-      if (first < 0)
-        first = latest;
-      else
-        ++count;
-    }
-    last_time = time;
-    last_value = value;
-  }
-  double frequency() const { return count / (latest - first); }
 };
 
 TEST(BeltWave, AnAxialPulseTravelsAtTheRootOfStiffnessOverMass) {

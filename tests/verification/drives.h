@@ -110,13 +110,23 @@ struct Mean {
   double value() const { return sum / count; }
 };
 
-/// Index of the node nearest a point.
-inline int nearest_node(const Coordinates& q, double x, double y) {
-  int best = 0;
-  for (int i = 1; i < q.x.size(); ++i)
-    if (std::hypot(q.x[i] - x, q.y[i] - y) < std::hypot(q.x[best] - x, q.y[best] - y)) best = i;
-  return best;
-}
+/// Frequency of a signal from its rising zero crossings, each interpolated between two samples.
+struct Crossings {
+  double last_time = 0, last_value = 0, first = -1, latest = 0;
+  int count = 0;
+  void add(double time, double value) {
+    if (time > 0 && last_value < 0 && value >= 0) {
+      latest = last_time - last_value * (time - last_time) / (value - last_value);
+      if (first < 0)
+        first = latest;
+      else
+        ++count;
+    }
+    last_time = time;
+    last_value = value;
+  }
+  double frequency() const { return count / (latest - first); }
+};
 
 /// Prints a measured value beside its closed form and records it with the test.
 inline void report(const std::string& what, double measured, double closed_form) {

@@ -164,6 +164,12 @@ TEST(Route, AVanishedWrapIsRefusedByName) {
       << (words.empty() ? "accepted, but the belt crosses itself" : words);
 }
 
+TEST(Route, ABeltThatCouldOnlyCloseByCrossingItselfIsRefused) {
+  SceneSpec scene = drives::shipped("baseline");
+  scene.pulley[6].y_mm += 65;  // idler_7 no longer reaches the belt between tensioner and drive pulley
+  EXPECT_NE(refusal(scene), "") << "accepted with a tension of " << solve_statics(scene).balance.tension << " N";
+}
+
 TEST(Route, ABeltThroughAPulleyIsRefusedByName) {
   SceneSpec scene = drives::two_pulleys(200, 500, 120, 80, 600);
   scene.pulley.insert(scene.pulley.begin() + 1, drives::pulley("fan", 140, 200, 80));

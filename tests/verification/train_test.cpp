@@ -187,7 +187,6 @@ TEST(GearPair, RattlesThroughItsBacklashAsTheEquationOfThePinionAloneSays) {
   EXPECT_GT(impacts, 15);
   // Where teeth meet either method is wrong by up to a step of damper force, h c r1^2/J = 0.2 % of the speed; halving
   // the step halves what is measured, 5e-4.
-  std::printf("worst %g largest %g impacts %d\n", worst, largest, impacts);
   EXPECT_LT(worst, 1e-3 * largest);
 }
 

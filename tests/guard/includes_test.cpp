@@ -1,0 +1,132 @@
+// Owns the arrows between folders: simulator <- results <- drivers <- main, read off the #include lines.
+#include <gtest/gtest.h>
+
+#include "tests/guard/source_tree.h"
+
+namespace beltlife::guard_test {
+namespace {
+
+struct Include {
+  std::string file;    ///< that includes
+  std::string header;  ///< between the quotes or brackets
+};
+
+std::vector<Include> includes_of(const std::vector<std::string>& files) {
+  std::vector<Include> found;
+  for (const std::string& file : files) {
+    for (const std::string& line : lines_of(file)) {
+      const auto hash = line.find_first_not_of(" \t");
+      if (hash == line.npos || line[hash] != '#') continue;
+      const auto word = line.find_first_not_of(" \t", hash + 1);
+      if (word == line.npos || line.compare(word, 7, "include") != 0) continue;
+      const auto open = line.find_first_of("<\"", word);
+      const auto close = open == line.npos ? open : line.find_first_of(">\"", open + 1);
+      if (close != line.npos) found.push_back({file, line.substr(open + 1, close - open - 1)});
+    }
+  }
+  return found;
+}
+
+bool in(const std::string& path, const std::string& folder) { return path.starts_with(folder + "/"); }
+
+bool in_any(const std::string& path, const std::vector<std::string>& folders) {
+  return std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) { return in(path, folder); });
+}
+
+// The simulator's core takes a Spec and gives numbers: no file format, no command line.
+bool is_core(const std::string& file) {
+  return in(file, "sim") && (file.find('/', 4) == file.npos ||
+                             in_any(file, {"sim/kernels", "sim/schemes", "sim/route", "sim/signal"}));
+}
+
+const std::vector<std::string> drivers{"calibrate", "studies", "optimize"};
+
+/// All includes outside tests.
+const std::vector<Include>& includes() {
+  static const std::vector<Include> found = [] {
+    std::vector<std::string> files;
+    for (const std::string& file : cpp_files())
+      if (!in(file, "tests")) files.push_back(file);
+    return includes_of(files);
+  }();
+  return found;
+}
+
+/// The files outside tests that include `header`.
+std::vector<std::string> includers(const std::string& header) {
+  std::vector<std::string> files;
+  for (const Include& i : includes())
+    if (i.header == header) files.push_back(i.file);
+  return files;
+}
+
+TEST(Includes, AreSeen) {
+  EXPECT_GT(includes().size(), 200u) << "the search itself is broken";
+  EXPECT_FALSE(includers("sim/model.h").empty());
+}
+
+TEST(Includes, OfTheSimulatorNeverReachResultsOrDrivers) {
+  for (const Include& i : includes())
+    if (in(i.file, "sim")) {
+      EXPECT_FALSE(in_any(i.header, {"results", "calibrate", "studies", "optimize", "tests"})) << i.file << " includes " << i.header;
+    }
+}
+
+TEST(Includes, OfTheCoreNameNoFileFormatAndNoCommandLine) {
+  for (const Include& i : includes())
+    if (is_core(i.file)) {
+      EXPECT_FALSE(in_any(i.header, {"nlohmann", "CLI", "toml++"}) || i.header == "hdf5.h") << i.file << " includes " << i.header;
+    }
+}
+
+TEST(Includes, OfTheCoreNeverReachEvaluation) {
+  for (const Include& i : includes())
+    if (is_core(i.file)) {
+      EXPECT_FALSE(in_any(i.header, {"sim/eval", "sim/life"})) << i.file << " includes " << i.header;
+    }
+}
+
+TEST(Includes, OfResultsNeverReachDrivers) {
+  for (const Include& i : includes())
+    if (in(i.file, "results")) {
+      EXPECT_FALSE(in_any(i.header, drivers)) << i.file << " includes " << i.header;
+    }
+}
+
+TEST(Includes, OfDriversNeverReachEachOther) {
+  for (const Include& i : includes())
+    for (const std::string& own : drivers)
+      for (const std::string& other : drivers)
+        if (own != other && in(i.file, own)) {
+          EXPECT_FALSE(in(i.header, other)) << i.file << " includes " << i.header;
+        }
+}
+
+TEST(Includes, OfTomlStandInOneFile) {
+  EXPECT_EQ(includers("toml++/toml.h"), std::vector<std::string>{"sim/scene/toml_tree.cpp"});
+}
+
+TEST(Includes, OfHdf5StandInOneFileOfResults) {
+  const auto files = includers("hdf5.h");
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_TRUE(in(files[0], "results") && files[0].ends_with(".cpp")) << files[0];
+}
+
+TEST(Includes, OfOpenMpStandInOneFile) {
+  EXPECT_EQ(includers("omp.h"), std::vector<std::string>{"sim/eval/parallel_for.cpp"});
+}
+
+// Parallelism is over evaluations: a pragma elsewhere would be a second place to look for races.
+TEST(Includes, OpenMpPragmasStandBesideThem) {
+  for (const std::string& file : cpp_files({"sim", "results", "calibrate", "studies", "optimize"}))
+    if (file != "sim/eval/parallel_for.cpp")
+      for (const std::string& line : lines_of(file))
+        EXPECT_FALSE(line.starts_with("#pragma omp") && line.find("simd") == line.npos) << file << ": " << line;
+}
+
+TEST(Includes, OfProductCodeNeverReachTests) {
+  for (const Include& i : includes()) EXPECT_FALSE(in(i.header, "tests")) << i.file << " includes " << i.header;
+}
+
+}  // namespace
+}  // namespace beltlife::guard_test

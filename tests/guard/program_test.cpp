@@ -1,0 +1,100 @@
+// Owns the guard that a drive pays for nothing it does not have: kernels and arrays by feature.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/kernels/kernel.h"
+#include "sim/scene/scene_io.h"
+
+namespace beltlife {
+namespace {
+
+using Names = std::vector<std::string>;
+
+SceneSpec scene_of(const char* name, const std::vector<std::string>& settings = {}) {
+  return read_scene(std::string(BELTLIFE_SCENES "/") + name, settings).scene;
+}
+
+Names program_of(const SceneSpec& scene) {
+  Names names;
+  for (const Kernel& k : force_program(compile(scene))) names.push_back(k.name);
+  return names;
+}
+
+Names without(Names names, const char* name) {
+  EXPECT_EQ(std::erase(names, name), 1u) << name;
+  return names;
+}
+
+TEST(Program, OfTheBaselineIsThis) {
+  EXPECT_EQ(program_of(scene_of("baseline.toml")),
+            (Names{"belt ghosts", "belt axial, turning", "belt bending damping", "belt forces", "clear torques", "contact",
+                   "torsional springs", "gear mesh", "torque tables", "tensioner arm"}));
+}
+
+TEST(Program, OfARingHasNoBodiesAndNoContact) {
+  EXPECT_EQ(program_of(scene_of("spinning_ring.toml", {"belt.bending_damping_n_m2_s=0"})),
+            (Names{"belt ghosts", "belt axial", "belt forces"}));
+}
+
+TEST(Program, OfTwoPulleysHasNoShaftsGearsOrTensioner) {
+  EXPECT_EQ(program_of(scene_of("two_pulley.toml")), (Names{"belt ghosts", "belt axial, turning", "belt bending damping",
+                                                            "belt forces", "clear torques", "contact", "torque tables"}));
+}
+
+TEST(Program, LosesBendingWithItsConstants) {
+  EXPECT_EQ(program_of(scene_of("two_pulley.toml", {"belt.bending_damping_n_m2_s=0"})),
+            (Names{"belt ghosts", "belt axial", "belt forces", "clear torques", "contact", "torque tables"}));
+}
+
+TEST(Program, TakesBendingStiffnessOnlyWhereThereIsSome) {
+  const Names stiff = program_of(scene_of("two_pulley.toml", {"belt.bending_stiffness_n_m2=0.1"}));
+  EXPECT_EQ(std::count(stiff.begin(), stiff.end(), "belt bending"), 1);
+  EXPECT_EQ(std::count(stiff.begin(), stiff.end(), "belt bending damping"), 0);
+}
+
+TEST(Program, LosesEachFeatureWithItsTable) {
+  const SceneSpec full = scene_of("baseline.toml");
+  const Names names = program_of(full);
+  SceneSpec scene = full;
+  scene.gear_pair.clear();
+  EXPECT_EQ(program_of(scene), without(names, "gear mesh"));
+  scene = full;
+  scene.torsional_spring.clear();
+  scene.gear_pair.clear();
+  EXPECT_EQ(program_of(scene), without(without(names, "torsional springs"), "gear mesh"));
+  scene = full;
+  scene.torque.clear();
+  EXPECT_EQ(program_of(scene), without(names, "torque tables"));
+  scene = full;
+  scene.tensioner->locked = true;
+  EXPECT_EQ(program_of(scene), without(names, "tensioner arm"));
+  scene = full;
+  scene.tensioner.reset();
+  EXPECT_EQ(program_of(scene), without(names, "tensioner arm"));
+}
+
+TEST(Program, HasAControllerOnlyWhereTheDriverHasOne) {
+  Names names = program_of(scene_of("baseline.toml"));
+  names.push_back("pid driver");
+  EXPECT_EQ(program_of(scene_of("baseline.toml", {"driver.control=pid"})), names);
+}
+
+TEST(Arrays, OfBendingAreNotAllocatedWithoutIt) {
+  const Work with = make_work(compile(scene_of("two_pulley.toml")));
+  const Work none = make_work(compile(scene_of("two_pulley.toml", {"belt.bending_damping_n_m2_s=0"})));
+  EXPECT_EQ(with.moment.size(), 264);
+  EXPECT_EQ(with.turn_rate.size(), 264);
+  EXPECT_EQ(none.moment.size(), 0);
+  EXPECT_EQ(none.turn_rate.size(), 0);
+}
+
+TEST(Arrays, OfContactAreNotAllocatedForARing) {
+  const Work ring = make_work(compile(scene_of("spinning_ring.toml")));
+  for (const NodeArray* a : {&ring.normal, &ring.tangential, &ring.slip, &ring.contact_x, &ring.contact_y, &ring.contact_moment})
+    EXPECT_EQ(a->size(), 0);
+  EXPECT_TRUE(ring.torque.empty());
+}
+
+}  // namespace
+}  // namespace beltlife
