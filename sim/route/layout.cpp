@@ -234,7 +234,7 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
     const auto imbalance = [&](double a) {
       const Layout l = layout_at(scene, s.orientation, a);
       if (std::isnan(l.route.length)) return std::nan("");
-      const double tension = scene.belt.pretension_n ? *scene.belt.pretension_n : tension_of(l.route.length);
+      const double tension = scene.belt.pretension_n ? *scene.belt.pretension_n : std::max(tension_of(l.route.length), 0.0);
       return arm.spring_torque(a) - tension * l.length_per_arm_angle;
     };
     if (!root_near_zero(imbalance, std::numbers::pi, angle))
