@@ -36,7 +36,8 @@ CLI::Validator not_empty() {
 }
 
 void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
-  app.add_option("--set", o.settings, "change a scene field by path, e.g. --set tensioner.friction_torque_n_m=4 (repeatable)")
+  app.add_option("--set", o.settings,
+                 "change a scene field by path, e.g. --set tensioner.friction_torque_n_m=4 (repeatable)")
       ->type_name("PATH=VALUE")
       ->take_all()
       ->expected(1);
@@ -48,10 +49,14 @@ void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
 }
 
 void run_flags(CLI::App& app, CommandOptions& o) {
-  app.add_option("--range", o.ranges, "only this operating range (repeatable)")->type_name("NAME")->take_all()->expected(1);
+  app.add_option("--range", o.ranges, "only this operating range (repeatable)")
+      ->type_name("NAME")
+      ->take_all()
+      ->expected(1);
   app.add_option("--threads", o.threads, "threads over ranges, 0: all")
       ->type_name("N")
-      ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); }, "a whole number from 0 to 1024"));
+      ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); },
+                           "a whole number from 0 to 1024"));
   app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")
       ->type_name("FILE.h5")
       ->check(not_empty());
@@ -80,10 +85,13 @@ int run(int argc, char** argv) {
       "  beltlife life sim/scenes/baseline.toml --set belt.friction_front=0.5\n"
       "Exit codes: 0 done, 1 usage, 2 bad input, 3 ran but failed, 4 a bug of ours.");
 
-  CLI::App* check = app.add_subcommand("check", "read a scene, solve its layout and static balance, print limits and names; runs nothing");
+  CLI::App* check = app.add_subcommand(
+      "check", "read a scene, solve its layout and static balance, print limits and names; runs nothing");
   CLI::App* simulate = app.add_subcommand(
-      "simulate", "run the whole profile (or --range, --each-range) and print tensions, slip, hub loads, spectra and energy");
-  CLI::App* life = app.add_subcommand("life", "run every range alone, in parallel, and print stresses and the life of the belt");
+      "simulate",
+      "run the whole profile (or --range, --each-range) and print tensions, slip, hub loads, spectra and energy");
+  CLI::App* life =
+      app.add_subcommand("life", "run every range alone, in parallel, and print stresses and the life of the belt");
   for (CLI::App* command : {check, simulate, life}) {
     common_flags(*command, o, shorthand);
     if (command != check) run_flags(*command, o);
@@ -99,10 +107,12 @@ int run(int argc, char** argv) {
       "  beltlife simulate sim/scenes/baseline.toml --range B100 --set profile.hold_s=1.5\n"
       "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json");
   life->add_option("scene", o.scenes, "one or more scene files (TOML)")->required()->expected(1, -1);
-  life->add_option("--details", o.details, "also write tensions, slip, hub loads, orders and energy of every range to a text file")
+  life->add_option("--details", o.details,
+                   "also write tensions, slip, hub loads, orders and energy of every range to a text file")
       ->type_name("FILE.txt")
       ->check(not_empty());
-  life->add_option("--flank-for", o.flank_for_life_h, "also print the flank height at which the life is this many hours")
+  life->add_option("--flank-for", o.flank_for_life_h,
+                   "also print the flank height at which the life is this many hours")
       ->type_name("HOURS")
       ->check(number_where([](double h) { return h > 0 && std::isfinite(h); }, "a finite number above 0"));
   life->footer(

@@ -35,7 +35,8 @@ struct Loaded {
 std::string out_of(const std::string& scene, const CommandOptions& o) {
   if (o.out.empty() || o.scenes.size() == 1) return o.out;
   const std::filesystem::path path = o.out;
-  return path.parent_path() / (path.stem().string() + "_" + std::filesystem::path(scene).stem().string() + path.extension().string());
+  return path.parent_path() /
+         (path.stem().string() + "_" + std::filesystem::path(scene).stem().string() + path.extension().string());
 }
 
 // A measurement that misses part of the profile would run on at its last speed. One sampling interval is forgiven.
@@ -44,8 +45,10 @@ void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const s
   const auto& t = measured.time_s;
   const double wanted = plan_profile(scene, &measured).end_s;
   if (t.front() <= t[1] - t.front() && t.back() + (t.back() - t[t.size() - 2]) >= wanted) return;
-  throw BadInput({Problem{file, 0, "driver.speed_csv", fmt::format("covers {:g} to {:g} s, the profile runs from 0 to {:g} s", t.front(), t.back(), wanted),
-                          "a measurement of the whole profile, or shorter profile.hold_s, or fewer ranges"}});
+  throw BadInput(
+      {Problem{file, 0, "driver.speed_csv",
+               fmt::format("covers {:g} to {:g} s, the profile runs from 0 to {:g} s", t.front(), t.back(), wanted),
+               "a measurement of the whole profile, or shorter profile.hold_s, or fewer ranges"}});
 }
 
 Loaded load(const std::string& path, const CommandOptions& o) {
@@ -73,7 +76,8 @@ double seconds_of(const std::vector<RunPlan>& plans) {
 
 std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& plans, const CommandOptions& o) {
   Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
-  return run_plans(l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
+  return run_plans(
+      l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
 }
 
 std::vector<RangeLoad> loads_of(const Loaded& l, const std::vector<RunRecord>& records) {
@@ -120,7 +124,8 @@ bool report_failures(const std::vector<RunRecord>& records, const std::vector<Ru
     }
     if (records[i].friction_overdamped_s > 0)
       fmt::print(stderr,
-                 "{}: during {:.3g} s of the windows the step was too long for the friction slope, which then dissipates too much; "
+                 "{}: during {:.3g} s of the windows the step was too long for the friction slope, which then "
+                 "dissipates too much; "
                  "set a shorter solver.step_s\n",
                  plans[i].name, records[i].friction_overdamped_s);
   }
@@ -138,12 +143,9 @@ nlohmann::json json_of_runs(const std::vector<RunRecord>& records, const std::ve
 
 nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretched) {
   constexpr double degree = 180 / 3.14159265358979323846;
-  nlohmann::json j{{"arm_angle_rad", layout.arm_angle},
-                   {"path_length_mm", 1e3 * layout.route.length},
-                   {"tension_n", layout.tension},
-                   {"unstretched_length_m", unstretched},
-                   {"pulleys", nlohmann::json::array()},
-                   {"spans", nlohmann::json::array()}};
+  nlohmann::json j{{"arm_angle_rad", layout.arm_angle},  {"path_length_mm", 1e3 * layout.route.length},
+                   {"tension_n", layout.tension},        {"unstretched_length_m", unstretched},
+                   {"pulleys", nlohmann::json::array()}, {"spans", nlohmann::json::array()}};
   for (int p = 0; p < m.pulleys; ++p) {
     j["pulleys"].push_back({{"name", m.body_name[p]}, {"wrap_deg", layout.route.wrap[p] * degree}});
     j["spans"].push_back(
@@ -157,20 +159,27 @@ void print_layout(const Model& m) {
   const StaticState& s = m.statics;
   Table table({"pulley", "side", "x mm", "y mm", "wrap deg placed", "at rest", "span to next mm placed", "at rest"});
   for (int p = 0; p < m.pulleys; ++p)
-    table.row({m.body_name[p], std::string(enum_name(m.scene.pulley[p].side)), fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].x),
-               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].y), fmt::format("{:.1f}", s.placed.route.wrap[p] * degree),
-               fmt::format("{:.1f}", s.balance.route.wrap[p] * degree), fmt::format("{:.1f}", 1e3 * s.placed.route.spans[p].length),
+    table.row({m.body_name[p], std::string(enum_name(m.scene.pulley[p].side)),
+               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].x),
+               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].y),
+               fmt::format("{:.1f}", s.placed.route.wrap[p] * degree),
+               fmt::format("{:.1f}", s.balance.route.wrap[p] * degree),
+               fmt::format("{:.1f}", 1e3 * s.placed.route.spans[p].length),
                fmt::format("{:.1f}", 1e3 * s.balance.route.spans[p].length)});
   fmt::print("{}\n", table.text(0));
   Table numbers({"", "placed", "at rest"});
-  numbers.row({"belt path mm", fmt::format("{:.1f}", 1e3 * s.placed.route.length), fmt::format("{:.1f}", 1e3 * s.balance.route.length)});
+  numbers.row({"belt path mm", fmt::format("{:.1f}", 1e3 * s.placed.route.length),
+               fmt::format("{:.1f}", 1e3 * s.balance.route.length)});
   numbers.row({"tension N", fmt::format("{:.1f}", s.placed.tension), fmt::format("{:.1f}", s.balance.tension)});
-  numbers.row({"unstretched length mm", fmt::format("{:.1f}", 1e3 * s.placed_unstretched_length), fmt::format("{:.1f}", 1e3 * s.unstretched_length)});
+  numbers.row({"unstretched length mm", fmt::format("{:.1f}", 1e3 * s.placed_unstretched_length),
+               fmt::format("{:.1f}", 1e3 * s.unstretched_length)});
   numbers.row({"arm angle rad", "0.0000", fmt::format("{:.4f}", s.balance.arm_angle)});
   fmt::print("{}\n", numbers.text(0));
   if (m.tensioner.pulley >= 0)
-    fmt::print("placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry {:.0f} N)\n\n",
-               s.placed_strain_tension);
+    fmt::print(
+        "placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry "
+        "{:.0f} N)\n\n",
+        s.placed_strain_tension);
 }
 
 std::vector<RangeSummary> summaries_of(const Loaded& l, const std::vector<RunRecord>& records) {
@@ -180,7 +189,9 @@ std::vector<RangeSummary> summaries_of(const Loaded& l, const std::vector<RunRec
       if (window.last_sample <= window.first_sample) continue;
       summaries.push_back(summarise(l.model, run, window));
       if (summaries.back().drift > 0.03)
-        fmt::print(stderr, "{}: not settled: a span's mean tension changes by {:.0f} % within the window; try a longer profile.hold_s\n",
+        fmt::print(stderr,
+                   "{}: not settled: a span's mean tension changes by {:.0f} % within the window; try a longer "
+                   "profile.hold_s\n",
                    window.range, 100 * summaries.back().drift);
     }
   return summaries;
@@ -194,7 +205,8 @@ std::string heading(const Loaded& l) {
 std::vector<std::string> comparison_row(const Loaded& l, const Life& life, const std::vector<RangeSpec>& ranges) {
   std::vector<std::string> row{l.file.path.stem().string()};
   for (const RangeSpec& range : ranges) {
-    const auto found = std::find_if(life.ranges.begin(), life.ranges.end(), [&](const RangeLife& r) { return r.name == range.name; });
+    const auto found =
+        std::find_if(life.ranges.begin(), life.ranges.end(), [&](const RangeLife& r) { return r.name == range.name; });
     row.push_back(found == life.ranges.end() ? "-" : fmt::format("{:.4g}", found->life_h));
   }
   row.push_back(fmt::format("{:.4g}", life.life_h));
@@ -220,7 +232,8 @@ int run_check(const CommandOptions& o) {
                      {"parameters", number_paths(l.file.scene)},
                      {"step_limits", nlohmann::json::array()}};
     for (const Kernel& k : program) j["kernels"].push_back(k.name);
-    for (const StepLimit& limit : limits) j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
+    for (const StepLimit& limit : limits)
+      j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
     if (m.pulleys > 0) {
       j["printed"] = layout_json(m, m.statics.placed, m.statics.placed_unstretched_length);
       j["static"] = layout_json(m, m.statics.balance, m.statics.unstretched_length);
@@ -242,8 +255,8 @@ int run_check(const CommandOptions& o) {
   }
   Table table({"step limit", "s", "formula"});
   for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
-  fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (stable up to {:.4g})\nkernels:", table.text(0), enum_name(m.scene.solver.scheme),
-             m.belt.nodes, run_step(m), limits.front().limit_s);
+  fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (stable up to {:.4g})\nkernels:", table.text(0),
+             enum_name(m.scene.solver.scheme), m.belt.nodes, run_step(m), limits.front().limit_s);
   for (std::size_t i = 0; i < program.size(); ++i) fmt::print("{} {}", i ? "," : "", program[i].name);
   fmt::print("\n{} quantities can be studied; --json lists them\n", quantity_names(m).size());
   return 0;
@@ -252,7 +265,8 @@ int run_check(const CommandOptions& o) {
 int run_simulate(const CommandOptions& o) {
   const Loaded l = load(o.scenes.at(0), o);
   const bool whole = !o.each_range && o.ranges.empty() && !l.file.scene.range.empty();
-  const auto plans = whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
+  const auto plans =
+      whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
   auto outcomes = run_all(l, plans, o);
   std::vector<KernelTime> times;
   for (const RunOutcome& outcome : outcomes) {
@@ -284,14 +298,20 @@ int run_simulate(const CommandOptions& o) {
     text += text_of(summary) + "\n";
   }
   if (o.json) {
-    nlohmann::json j{{"status", failed ? "failed" : "ok"}, {"runs", json_of_runs(records, plans)}, {"wall_s", wall},
-                     {"simulated_s", simulated},           {"steps", steps},     {"step_s", records.front().step_s},
-                     {"energy_residual", finite(residual)}, {"ranges", ranges}};
-    for (const KernelTime& t : times) j["kernel_times"].push_back({{"name", t.name}, {"seconds", t.seconds}, {"calls", t.calls}});
+    nlohmann::json j{{"status", failed ? "failed" : "ok"},
+                     {"runs", json_of_runs(records, plans)},
+                     {"wall_s", wall},
+                     {"simulated_s", simulated},
+                     {"steps", steps},
+                     {"step_s", records.front().step_s},
+                     {"energy_residual", finite(residual)},
+                     {"ranges", ranges}};
+    for (const KernelTime& t : times)
+      j["kernel_times"].push_back({{"name", t.name}, {"seconds", t.seconds}, {"calls", t.calls}});
     fmt::print("{}\n", text_of(j));
   } else {
-    fmt::print("{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text, simulated, wall, steps,
-               records.front().step_s, enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
+    fmt::print("{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text, simulated, wall,
+               steps, records.front().step_s, enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
     if (o.profile) fmt::print("\n{}", text_of(times, l.model.belt.nodes));
   }
   return failed ? 3 : 0;
@@ -305,7 +325,8 @@ int run_life(const CommandOptions& o) {
   for (const auto& path : o.scenes) {
     drives.push_back(load(path, o));
     if (drives.back().file.scene.range.empty())
-      throw BadInput({Problem{path, 0, "range", "the scene has no operating range, so no life", "at least one [[range]]"}});
+      throw BadInput(
+          {Problem{path, 0, "range", "the scene has no operating range, so no life", "at least one [[range]]"}});
     plans_of_drive.push_back(plans_of(drives.back().file.scene, o.ranges, drives.back().speed()));
   }
   bool failed = false;
@@ -341,8 +362,9 @@ int run_life(const CommandOptions& o) {
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;
       if (!o.json)
-        fmt::print("{}\n\n", height ? fmt::format("fatigue.flank_height_mm = {:.4f} gives {:g} h", *height, o.flank_for_life_h)
-                                    : fmt::format("no flank height between 0.05 and 10 mm gives {:g} h", o.flank_for_life_h));
+        fmt::print("{}\n\n",
+                   height ? fmt::format("fatigue.flank_height_mm = {:.4f} gives {:g} h", *height, o.flank_for_life_h)
+                          : fmt::format("no flank height between 0.05 and 10 mm gives {:g} h", o.flank_for_life_h));
     }
     all.push_back(std::move(j));
   }

@@ -15,10 +15,10 @@ struct CommandOptions {
   int threads = 0;                    ///< --threads, 0: all
   bool json = false;
   bool quiet = false;
-  bool each_range = false;            ///< --each-range of simulate
-  bool profile = false;               ///< --profile: time by kernel
-  std::string details;                ///< --details of life: text file for what simulate prints, empty: none
-  double flank_for_life_h = 0;        ///< --flank-for of life, 0: not asked
+  bool each_range = false;      ///< --each-range of simulate
+  bool profile = false;         ///< --profile: time by kernel
+  std::string details;          ///< --details of life: text file for what simulate prints, empty: none
+  double flank_for_life_h = 0;  ///< --flank-for of life, 0: not asked
   std::string command_line, version, revision, compiler;
 };
 

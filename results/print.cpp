@@ -30,8 +30,10 @@ nlohmann::json json_of(const RangeSummary& s) {
                        {"torque_n_m_mean", finite(s.output->torque_n_m_mean)},
                        {"orders", nlohmann::json::array()}};
     for (const OrderLine& line : s.output->orders)
-      out["orders"].push_back(
-          {{"order", line.order}, {"hz", line.hz}, {"speed_rpm", finite(line.speed_rpm)}, {"torque_n_m", finite(line.torque_n_m)}});
+      out["orders"].push_back({{"order", line.order},
+                               {"hz", line.hz},
+                               {"speed_rpm", finite(line.speed_rpm)},
+                               {"torque_n_m", finite(line.torque_n_m)}});
     j["drive_shaft"] = std::move(out);
   } else {
     j["drive_shaft"] = nullptr;
@@ -58,7 +60,9 @@ nlohmann::json json_of(const RangeSummary& s) {
 }
 
 nlohmann::json json_of(const Life& life) {
-  nlohmann::json j{{"life_h", finite(life.life_h)}, {"log10_life_h", finite(life.log10_life_h)}, {"ranges", nlohmann::json::object()}};
+  nlohmann::json j{{"life_h", finite(life.life_h)},
+                   {"log10_life_h", finite(life.log10_life_h)},
+                   {"ranges", nlohmann::json::object()}};
   if (life.error) j["error"] = *life.error;
   for (const RangeLife& range : life.ranges) {
     nlohmann::json r{{"life_h", finite(range.life_h)},
@@ -115,8 +119,9 @@ nlohmann::json json_of(const RunStatus& status) {
 
 std::string text_of(const RunStatus& status) {
   if (status.ok()) return "ok";
-  return fmt::format("{} at {:.6f} s, {}{}\n  likely cause: {}\n  try: {}", to_string(status.state), status.time_s, status.where,
-                     status.element >= 0 ? fmt::format(", element {}", status.element) : "", status.cause, status.advice);
+  return fmt::format("{} at {:.6f} s, {}{}\n  likely cause: {}\n  try: {}", to_string(status.state), status.time_s,
+                     status.where, status.element >= 0 ? fmt::format(", element {}", status.element) : "", status.cause,
+                     status.advice);
 }
 
 std::string text_of(const RangeSummary& s) {
@@ -128,18 +133,19 @@ std::string text_of(const RangeSummary& s) {
                fmt::format("{:.1f}", span.deflection_mm_max)});
   Table pulleys({"pulley", "speed r/min", "slip %", "hub load N", "max", "direction deg", "belt torque N m"});
   for (const PulleySummary& p : s.pulleys)
-    pulleys.row({p.name, fmt::format("{:.1f}", p.speed_rpm_mean), p.slip_percent ? fmt::format("{:.2f}", *p.slip_percent) : "-",
-                 fmt::format("{:.0f}", p.hub_load_n), fmt::format("{:.0f}", p.hub_load_n_max),
-                 fmt::format("{:.0f}", p.hub_direction_deg), fmt::format("{:.2f}", p.torque_n_m_mean)});
+    pulleys.row({p.name, fmt::format("{:.1f}", p.speed_rpm_mean),
+                 p.slip_percent ? fmt::format("{:.2f}", *p.slip_percent) : "-", fmt::format("{:.0f}", p.hub_load_n),
+                 fmt::format("{:.0f}", p.hub_load_n_max), fmt::format("{:.0f}", p.hub_direction_deg),
+                 fmt::format("{:.2f}", p.torque_n_m_mean)});
   if (!s.spans.empty()) out += spans.text(2) + "\n" + pulleys.text(2) + "\n";
   if (s.output) {
-    out += fmt::format("  {}: mean {:.1f} r/min, {:.2f} N m; amplitudes by crank order\n", s.output->body, s.output->speed_rpm_mean,
-                       s.output->torque_n_m_mean);
+    out += fmt::format("  {}: mean {:.1f} r/min, {:.2f} N m; amplitudes by crank order\n", s.output->body,
+                       s.output->speed_rpm_mean, s.output->torque_n_m_mean);
     Table orders({"order", "Hz", "speed r/min", "torque N m"});
     for (const OrderLine& line : s.output->orders)
       if (line.order == 0.5 || line.order == std::floor(line.order))
-        orders.row({fmt::format("{:g}", line.order), fmt::format("{:.1f}", line.hz), fmt::format("{:.3f}", line.speed_rpm),
-                    fmt::format("{:.3f}", line.torque_n_m)});
+        orders.row({fmt::format("{:g}", line.order), fmt::format("{:.1f}", line.hz),
+                    fmt::format("{:.3f}", line.speed_rpm), fmt::format("{:.3f}", line.torque_n_m)});
     out += orders.text(4) + "\n";
   }
   Table power({"power", "W"});
@@ -147,38 +153,48 @@ std::string text_of(const RangeSummary& s) {
     if (static_cast<Energy>(i) == Energy::stored || s.power_w[i] != 0)
       power.row({std::string(energy_names[i]), fmt::format("{:.1f}", s.power_w[i])});
   out += power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * s.energy_residual);
-  out += fmt::format("  mean span tensions change by {:.2f} % at most from the first half of the window to the second\n", 100 * s.drift);
+  out +=
+      fmt::format("  mean span tensions change by {:.2f} % at most from the first half of the window to the second\n",
+                  100 * s.drift);
   if (s.arm_angle_mean)
-    out += fmt::format("  tensioner arm {:.4f} rad, between {:.4f} and {:.4f}\n", *s.arm_angle_mean, *s.arm_angle_min, *s.arm_angle_max);
+    out += fmt::format("  tensioner arm {:.4f} rad, between {:.4f} and {:.4f}\n", *s.arm_angle_mean, *s.arm_angle_min,
+                       *s.arm_angle_max);
   return out;
 }
 
 std::string loss_table(const std::vector<RangeSummary>& ranges) {
-  Table table({"range", "torque tables W", "driver W", "belt bending loss W", "friction W", "other losses W", "not accounted %"});
+  Table table({"range", "torque tables W", "driver W", "belt bending loss W", "friction W", "other losses W",
+               "not accounted %"});
   for (const RangeSummary& s : ranges) {
     const auto power = [&](Energy e) { return s.power_w[static_cast<std::size_t>(e)]; };
-    const double other = power(Energy::lost_belt_axial) + power(Energy::lost_contact_normal) + power(Energy::lost_shafts) +
-                         power(Energy::lost_gears) + power(Energy::lost_tensioner_damping) + power(Energy::lost_tensioner_friction);
-    table.row({s.name, fmt::format("{:.0f}", power(Energy::work_torque_tables)), fmt::format("{:.0f}", power(Energy::work_driver)),
-               fmt::format("{:.0f}", power(Energy::lost_belt_bending)), fmt::format("{:.0f}", power(Energy::lost_friction)),
-               fmt::format("{:.0f}", other), fmt::format("{:.3f}", 100 * s.energy_residual)});
+    const double other = power(Energy::lost_belt_axial) + power(Energy::lost_contact_normal) +
+                         power(Energy::lost_shafts) + power(Energy::lost_gears) +
+                         power(Energy::lost_tensioner_damping) + power(Energy::lost_tensioner_friction);
+    table.row({s.name, fmt::format("{:.0f}", power(Energy::work_torque_tables)),
+               fmt::format("{:.0f}", power(Energy::work_driver)),
+               fmt::format("{:.0f}", power(Energy::lost_belt_bending)),
+               fmt::format("{:.0f}", power(Energy::lost_friction)), fmt::format("{:.0f}", other),
+               fmt::format("{:.3f}", 100 * s.energy_residual)});
   }
   return table.text(0);
 }
 
 std::string text_of(const Life& life) {
   std::string out;
-  Table pulleys({"range", "pulley", "axial MPa mean", "alt", "bending", "transverse", "shear", "sigma_m", "sigma_a", "rounds", "damage %"});
+  Table pulleys({"range", "pulley", "axial MPa mean", "alt", "bending", "transverse", "shear", "sigma_m", "sigma_a",
+                 "rounds", "damage %"});
   for (const RangeLife& range : life.ranges)
     for (const PulleyLife& p : range.pulleys)
-      pulleys.row({range.name, p.name, fmt::format("{:.3f}", p.axial_mean * mega), fmt::format("{:.3f}", p.axial_alternating * mega),
-                   fmt::format("{:.3f}", p.bending * mega), fmt::format("{:.3f}", p.transverse * mega), fmt::format("{:.3f}", p.shear * mega),
-                   fmt::format("{:.3f}", p.sigma_m * mega), fmt::format("{:.3f}", p.sigma_a * mega), cycles_text(p.cycles),
-                   fmt::format("{:.1f}", 100 * p.damage_share)});
+      pulleys.row({range.name, p.name, fmt::format("{:.3f}", p.axial_mean * mega),
+                   fmt::format("{:.3f}", p.axial_alternating * mega), fmt::format("{:.3f}", p.bending * mega),
+                   fmt::format("{:.3f}", p.transverse * mega), fmt::format("{:.3f}", p.shear * mega),
+                   fmt::format("{:.3f}", p.sigma_m * mega), fmt::format("{:.3f}", p.sigma_a * mega),
+                   cycles_text(p.cycles), fmt::format("{:.1f}", 100 * p.damage_share)});
   Table ranges({"range", "time %", "rounds to failure", "life h", "log10", "damage %"});
   for (const RangeLife& range : life.ranges)
-    ranges.row({range.name, fmt::format("{:.0f}", 100 * range.duty_share), cycles_text(range.cycles), hours_text(range.life_h),
-                fmt::format("{:.2f}", std::log10(range.life_h)), fmt::format("{:.1f}", 100 * range.damage_share)});
+    ranges.row({range.name, fmt::format("{:.0f}", 100 * range.duty_share), cycles_text(range.cycles),
+                hours_text(range.life_h), fmt::format("{:.2f}", std::log10(range.life_h)),
+                fmt::format("{:.1f}", 100 * range.damage_share)});
   out += pulleys.text(0) + "\n" + ranges.text(0);
   for (const RangeLife& range : life.ranges)
     if (range.error) out += "  no life in range " + range.name + ": " + *range.error + "\n";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace beltlife {
@@ -24,9 +25,9 @@ void Progress::operator()(double done) {
   last_ = now;
   shown_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const int left = static_cast<int>(elapsed * (total_ - done) / done + 0.5);
-  fmt::print(stderr, "{}{}: {:.1f} of {:.1f} {}, {}:{:02} left{}", terminal_ ? "\r\033[K" : "", what_, done, total_, unit_, left / 60,
-             left % 60, terminal_ ? "" : "\n");
+  const int left = static_cast<int>(std::lround(elapsed * (total_ - done) / done));
+  fmt::print(stderr, "{}{}: {:.1f} of {:.1f} {}, {}:{:02} left{}", terminal_ ? "\r\033[K" : "", what_, done, total_,
+             unit_, left / 60, left % 60, terminal_ ? "" : "\n");
   std::fflush(stderr);
 }
 

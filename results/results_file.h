@@ -29,6 +29,7 @@ void check_writable(const std::filesystem::path& path);
 /// Writes runs (one per simulated run: the whole profile, or one per range) and the life to `path`.
 /// Failed runs are written too, marked by their status. Throws BadInput if the file cannot be written; leaves
 /// nothing behind then.
-void write_results(const std::filesystem::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs, const Life* life);
+void write_results(const std::filesystem::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs,
+                   const Life* life);
 
 }  // namespace beltlife

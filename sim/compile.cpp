@@ -106,8 +106,9 @@ void compile_train(Model& m) {
   for (const auto& g : m.scene.gear_pair) {
     const int pinion = body_index(m, g.pinion), gear = body_index(m, g.gear);
     const double half_module = g.module_mm * 5e-4;
-    m.gears.push_back({pinion, gear, m.sense[pinion] * half_module * g.pinion_teeth, m.sense[gear] * half_module * g.gear_teeth,
-                       g.stiffness_n_per_m, g.damping_n_s_per_m, g.backlash_mm * 5e-4});
+    m.gears.push_back({pinion, gear, m.sense[pinion] * half_module * g.pinion_teeth,
+                       m.sense[gear] * half_module * g.gear_teeth, g.stiffness_n_per_m, g.damping_n_s_per_m,
+                       g.backlash_mm * 5e-4});
   }
   for (const auto& t : m.scene.torque) {
     const int body = body_index(m, t.body);
@@ -181,7 +182,8 @@ void place_ring(Model& m) {
 void check_ring(const Model& m, std::string_view file) {
   const double w = m.scene.ring->speed_rad_s, s = std::sin(std::numbers::pi / m.belt.nodes);
   if (m.belt.node_mass * w * w * m.belt.element_length >= 4 * s * s * m.belt.axial_stiffness)
-    throw BadInput({Problem{std::string(file), 0, "ring.speed_rad_s", "the ring would stretch without limit", "a lower speed"}});
+    throw BadInput(
+        {Problem{std::string(file), 0, "ring.speed_rad_s", "the ring would stretch without limit", "a lower speed"}});
 }
 
 }  // namespace

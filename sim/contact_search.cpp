@@ -9,8 +9,8 @@
 namespace beltlife {
 namespace {
 
-constexpr double margin = 5e-3;       // m above the surface within which a node is looked at
-constexpr double longest = 1e-4;      // s between searches
+constexpr double margin = 5e-3;   // m above the surface within which a node is looked at
+constexpr double longest = 1e-4;  // s between searches
 
 }  // namespace
 

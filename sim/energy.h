@@ -11,9 +11,9 @@ namespace beltlife {
 EnergyAccount powers(const Simulator& s);
 
 struct StoredEnergy {
-  double total = 0;         ///< J, anchors included
-  double anchors = 0;       ///< of it, in the friction anchors
-  double arm_anchor = 0;    ///< of it, in the tensioner's friction spring
+  double total = 0;       ///< J, anchors included
+  double anchors = 0;     ///< of it, in the friction anchors
+  double arm_anchor = 0;  ///< of it, in the tensioner's friction spring
 };
 StoredEnergy stored_energy(const Simulator& s);
 

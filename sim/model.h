@@ -13,13 +13,13 @@ namespace beltlife {
 
 struct BeltModel {
   int nodes = 0;
-  double element_length = 0;    ///< l0, m, unstretched
-  double node_mass = 0;         ///< m, kg
-  double unstretched_length = 0;///< L0, m
-  double axial_stiffness = 0;   ///< EA, N
-  double axial_damping = 0;     ///< CA, N s
-  double bending_stiffness = 0; ///< EI, N m^2
-  double bending_damping = 0;   ///< CI, N m^2 s
+  double element_length = 0;      ///< l0, m, unstretched
+  double node_mass = 0;           ///< m, kg
+  double unstretched_length = 0;  ///< L0, m
+  double axial_stiffness = 0;     ///< EA, N
+  double axial_damping = 0;       ///< CA, N s
+  double bending_stiffness = 0;   ///< EI, N m^2
+  double bending_damping = 0;     ///< CI, N m^2 s
 };
 
 /// Contact constants of one node, that is per unit-area constants times l0 x belt width.
@@ -33,16 +33,17 @@ struct ContactModel {
 };
 
 struct TorsionalSpring {
-  int from = 0, to = 0;    ///< bodies
-  double stiffness = 0;    ///< N m/rad
-  double damping = 0;      ///< N m s/rad
+  int from = 0, to = 0;  ///< bodies
+  double stiffness = 0;  ///< N m/rad
+  double damping = 0;    ///< N m s/rad
 };
 
 struct GearPair {
-  int pinion = 0, gear = 0;                ///< bodies
-  double pinion_radius = 0, gear_radius = 0;  ///< m; signed by the bodies' running senses, so that delta = r1 th1 - r2 th2
-  double stiffness = 0, damping = 0;       ///< N/m, N s/m
-  double half_backlash = 0;                ///< b/2, m
+  int pinion = 0, gear = 0;  ///< bodies
+  double pinion_radius = 0,
+         gear_radius = 0;             ///< m; signed by the bodies' running senses, so that delta = r1 th1 - r2 th2
+  double stiffness = 0, damping = 0;  ///< N/m, N s/m
+  double half_backlash = 0;           ///< b/2, m
 };
 
 struct TorqueTable {
@@ -52,13 +53,13 @@ struct TorqueTable {
 };
 
 struct TensionerModel {
-  int pulley = -1;           ///< -1: the drive has none
+  int pulley = -1;  ///< -1: the drive has none
   double pivot_x = 0, pivot_y = 0;
-  double arm_x = 0, arm_y = 0;  ///< pivot to pulley centre at angle 0, m
-  double inertia = 0;        ///< arm with its pulley's mass about the pivot, kg m^2
-  double spring_torque = 0;  ///< at angle 0, counterclockwise positive, N m
-  double spring_rate = 0;    ///< N m/rad; torque = spring_torque - spring_rate x angle
-  double damping = 0;        ///< N m s/rad
+  double arm_x = 0, arm_y = 0;    ///< pivot to pulley centre at angle 0, m
+  double inertia = 0;             ///< arm with its pulley's mass about the pivot, kg m^2
+  double spring_torque = 0;       ///< at angle 0, counterclockwise positive, N m
+  double spring_rate = 0;         ///< N m/rad; torque = spring_torque - spring_rate x angle
+  double damping = 0;             ///< N m s/rad
   double friction_torque = 0;     ///< N m
   double friction_stiffness = 0;  ///< N m/rad
   bool locked = false;
@@ -91,7 +92,7 @@ struct Model {
   std::vector<double> inertia;          ///< kg m^2
   std::vector<double> inverse_inertia;  ///< 0 where the speed is given or the pulley is locked
   std::vector<double> sense;
-  std::vector<double> speed_ratio;      ///< |speed| at a belt speed of 1 m/s without slip, rad/m
+  std::vector<double> speed_ratio;  ///< |speed| at a belt speed of 1 m/s without slip, rad/m
 
   std::vector<TorsionalSpring> springs;
   std::vector<GearPair> gears;

@@ -29,9 +29,9 @@ class PassTracker {
   void finish(int node);
 
   std::vector<PassForces> passes_;
-  std::vector<int> near_;       // pulley of each node's pass under way
-  std::vector<char> counts_;    // whether it began while open
-  std::vector<char> sampled_;   // whether a sample caught it in contact
+  std::vector<int> near_;      // pulley of each node's pass under way
+  std::vector<char> counts_;   // whether it began while open
+  std::vector<char> sampled_;  // whether a sample caught it in contact
   NodeArray normal_, tangential_, sampled_normal_, sampled_tangential_;
 };
 

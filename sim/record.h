@@ -61,8 +61,9 @@ enum class Energy {
   count
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Energy::count)> energy_names{
-    "work_driver",   "work_torque_tables", "lost_belt_axial",        "lost_belt_bending",       "lost_contact_normal", "lost_friction",
-    "lost_shafts",   "lost_gears",         "lost_tensioner_damping", "lost_tensioner_friction", "stored"};
+    "work_driver",   "work_torque_tables", "lost_belt_axial", "lost_belt_bending",      "lost_contact_normal",
+    "lost_friction", "lost_shafts",        "lost_gears",      "lost_tensioner_damping", "lost_tensioner_friction",
+    "stored"};
 
 /// Joules over a window: work in, losses, change of what is stored.
 struct EnergyAccount {
@@ -94,8 +95,8 @@ struct WindowRecord {
   double duty_share = 0;
   double begin_s = 0;  ///< in the run's own time
   double end_s = 0;
-  bool complete = false;           ///< false where the run failed before the window ended
-  std::size_t first_sample = 0;    ///< samples [first, last) of the trace
+  bool complete = false;         ///< false where the run failed before the window ended
+  std::size_t first_sample = 0;  ///< samples [first, last) of the trace
   std::size_t last_sample = 0;
   std::vector<PassForces> passes;  ///< one per pulley, scene order
   EnergyAccount energy;

@@ -36,12 +36,14 @@ void explain(const Simulator& s, RunStatus& status) {
   const auto limits = step_limits(s.model(), s.model().scene.solver.scheme);
   const StepLimit& shortest = limits.front();
   if (s.step() > shortest.limit_s) {
-    status.cause = fmt::format("step {:.3g} s is longer than the {:.3g} s that {} allows", s.step(), shortest.limit_s, shortest.name);
+    status.cause = fmt::format("step {:.3g} s is longer than the {:.3g} s that {} allows", s.step(), shortest.limit_s,
+                               shortest.name);
     status.advice = fmt::format("leave solver.step_s out, or set it to {:.2g}", 0.9 * shortest.limit_s);
   } else {
     status.cause = "loads, speed or slack beyond what this belt and tensioner can follow";
-    status.advice = fmt::format("halve solver.step_s (now {:.3g}); if it fails at the same time again, check pretension, torques and ramp_s",
-                                s.step());
+    status.advice = fmt::format(
+        "halve solver.step_s (now {:.3g}); if it fails at the same time again, check pretension, torques and ramp_s",
+        s.step());
   }
 }
 
@@ -201,7 +203,9 @@ RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& option
   Recorder recorder(model, plan, record);
   record.step_s = h;
 
-  const auto steps_of = [&](double seconds) { return std::max<std::int64_t>(1, static_cast<std::int64_t>(seconds / h)); };
+  const auto steps_of = [&](double seconds) {
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(seconds / h));
+  };
   const auto per_sample = static_cast<std::int64_t>(std::llround(1 / (model.scene.solver.sample_rate_hz * h)));
   const auto per_observation = std::min(per_sample, steps_of(observation_s)), per_check = steps_of(check_s);
   const auto last = static_cast<std::int64_t>(std::llround(plan.end_s / h));

@@ -30,7 +30,8 @@ std::vector<Channel> channels_of(const Model& m) {
   };
   for (const auto& name : m.body_name) add(name + ".speed_rpm", "r/min", "speed in the running sense");
   if (m.scene.output)
-    add(m.scene.output->body + ".torque_n_m", "N m", "output torque, positive when it drives the belt in the running sense");
+    add(m.scene.output->body + ".torque_n_m", "N m",
+        "output torque, positive when it drives the belt in the running sense");
   if (m.driver.body >= 0) {
     add("driver.angle_rad", "rad", "nominal angle of the driven body, without ripple");
     add("driver.torque_n_m", "N m", "torque that the driver puts in, in the running sense");
@@ -50,7 +51,8 @@ std::vector<Channel> channels_of(const Model& m) {
       add(pulley + ".slip_percent", "%", "surface speed behind that of the driven pulley, in per cent of it");
     add(pulley + ".torque_n_m", "N m", "torque of the belt on the pulley, in the running sense");
     add(pulley + ".normal_force_n", "N", "sum of the normal contact forces");
-    add(pulley + ".tangential_force_n", "N", "sum of the tangential contact forces on the pulley, in the running sense");
+    add(pulley + ".tangential_force_n", "N",
+        "sum of the tangential contact forces on the pulley, in the running sense");
     add(pulley + ".hub_load_x_n", "N", "force of the belt on the pulley");
     add(pulley + ".hub_load_y_n", "N", "force of the belt on the pulley");
   }
@@ -127,8 +129,8 @@ void Sensors::sample(const Simulator& s, std::vector<Channel>& channels) {
     const int d = m.driver.body;
     const auto given = s.profile().at(s.time());
     put(channels, at, given.angle);
-    put(channels, at, m.prescribed() ? m.inertia[d] * given.acceleration - m.sense[d] * w.torque[d]
-                                     : m.sense[d] * w.driver_torque);
+    put(channels, at,
+        m.prescribed() ? m.inertia[d] * given.acceleration - m.sense[d] * w.torque[d] : m.sense[d] * w.driver_torque);
   }
   double low = std::numeric_limits<double>::max(), high = -low;
   for (int i = 0; i < m.belt.nodes; ++i) {

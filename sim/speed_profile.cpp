@@ -29,8 +29,8 @@ SpeedProfile::SpeedProfile(const std::vector<double>& times, const std::vector<d
 SpeedProfile::Value SpeedProfile::at(double time) const {
   Value v;
   if (knots_.empty()) return v;
-  const auto next = std::upper_bound(knots_.begin(), knots_.end(), time,
-                                     [](double t, const Knot& knot) { return t < knot.time; });
+  const auto next =
+      std::upper_bound(knots_.begin(), knots_.end(), time, [](double t, const Knot& knot) { return t < knot.time; });
   if (next == knots_.begin() || next == knots_.end()) {
     const Knot& k = next == knots_.begin() ? knots_.front() : knots_.back();
     v.mean = k.speed;

@@ -34,8 +34,8 @@ class SpeedProfile {
 
   SpeedProfile() = default;
   /// `times` increasing, s; `speeds` rad/s. Angles are integrated exactly.
-  SpeedProfile(const std::vector<double>& times, const std::vector<double>& speeds, std::vector<Harmonic> harmonics = {},
-               double phase = 0);
+  SpeedProfile(const std::vector<double>& times, const std::vector<double>& speeds,
+               std::vector<Harmonic> harmonics = {}, double phase = 0);
 
   struct Value {
     double mean = 0;          ///< rad/s

@@ -12,13 +12,15 @@
 
 namespace beltlife {
 
-std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::string>& names, const MeasuredSpeed* measured) {
+std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::string>& names,
+                              const MeasuredSpeed* measured) {
   std::vector<Problem> problems;
   std::string known;
   for (const auto& range : scene.range) known += (known.empty() ? "" : ", ") + range.name;
   for (const auto& name : names)
     if (std::none_of(scene.range.begin(), scene.range.end(), [&](const auto& range) { return range.name == name; }))
-      problems.push_back({"--range", 0, name, "the scene has no range of this name", known.empty() ? "none: the scene has no ranges" : known});
+      problems.push_back({"--range", 0, name, "the scene has no range of this name",
+                          known.empty() ? "none: the scene has no ranges" : known});
   if (!problems.empty()) throw BadInput(std::move(problems));
   if (scene.range.empty()) return {plan_rest(scene)};
   std::vector<RunPlan> plans;

@@ -13,7 +13,8 @@ namespace beltlife {
 
 /// Plans of the named ranges (all if `names` is empty); a scene without ranges is run at rest. Throws BadInput for a
 /// name that the scene does not have.
-std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::string>& names, const MeasuredSpeed* measured);
+std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::string>& names,
+                              const MeasuredSpeed* measured);
 
 /// Runs plans on `threads` threads (0: all), longest first. `progress` gets the simulated seconds done of all plans
 /// together; it is called from any thread, never from two at once.

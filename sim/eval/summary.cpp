@@ -39,7 +39,8 @@ Extent extent(std::span<const double> v) {
 OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord& window) {
   OutputSummary out;
   out.body = m.scene.output->body;
-  const auto speed = stretch(run, window, out.body + ".speed_rpm"), torque = stretch(run, window, out.body + ".torque_n_m");
+  const auto speed = stretch(run, window, out.body + ".speed_rpm"),
+             torque = stretch(run, window, out.body + ".torque_n_m");
   out.speed_rpm_mean = extent(speed).mean;
   out.torque_n_m_mean = extent(torque).mean;
   if (m.driver.body < 0) return out;
@@ -47,7 +48,8 @@ OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord
   const auto orders = default_orders();
   const auto of_speed = track_orders(speed, angle, orders), of_torque = track_orders(torque, angle, orders);
   for (std::size_t i = 0; i < of_speed.size(); ++i)
-    out.orders.push_back({of_speed[i].order, of_speed[i].order * window.crank_rpm / 60, of_speed[i].amplitude, of_torque[i].amplitude});
+    out.orders.push_back(
+        {of_speed[i].order, of_speed[i].order * window.crank_rpm / 60, of_speed[i].amplitude, of_torque[i].amplitude});
   return out;
 }
 
@@ -56,7 +58,8 @@ PulleySummary pulley_of(const Model& m, const RunRecord& run, const WindowRecord
   s.name = m.body_name[p];
   const std::string prefix = "pulley." + s.name;
   s.speed_rpm_mean = extent(stretch(run, window, s.name + ".speed_rpm")).mean;
-  if (run.trace.find(prefix + ".slip_percent")) s.slip_percent = extent(stretch(run, window, prefix + ".slip_percent")).mean;
+  if (run.trace.find(prefix + ".slip_percent"))
+    s.slip_percent = extent(stretch(run, window, prefix + ".slip_percent")).mean;
   s.torque_n_m_mean = extent(stretch(run, window, prefix + ".torque_n_m")).mean;
   const auto x = stretch(run, window, prefix + ".hub_load_x_n"), y = stretch(run, window, prefix + ".hub_load_y_n");
   std::vector<double> magnitude(x.size());

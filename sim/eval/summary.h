@@ -12,9 +12,9 @@ namespace beltlife {
 
 struct OrderLine {
   double order = 0;
-  double hz = 0;            ///< at the range's mean speed of the driven body
-  double speed_rpm = 0;     ///< amplitude
-  double torque_n_m = 0;    ///< amplitude
+  double hz = 0;          ///< at the range's mean speed of the driven body
+  double speed_rpm = 0;   ///< amplitude
+  double torque_n_m = 0;  ///< amplitude
 };
 
 /// The two outputs that are compared with measurements.
@@ -37,7 +37,7 @@ struct PulleySummary {
   std::optional<double> slip_percent;  ///< mean, behind the driven pulley; none if what is driven is no pulley
   double hub_load_n = 0;               ///< mean of the magnitude
   double hub_load_n_max = 0;
-  double hub_direction_deg = 0;        ///< of the mean vector, counterclockwise from x
+  double hub_direction_deg = 0;  ///< of the mean vector, counterclockwise from x
   double torque_n_m_mean = 0;
 };
 
@@ -48,8 +48,8 @@ struct RangeSummary {
   std::optional<OutputSummary> output;
   std::vector<SpanSummary> spans;
   std::vector<PulleySummary> pulleys;
-  std::vector<double> power_w;        ///< by Energy: mean power over the window
-  double energy_residual = 0;         ///< of the throughput
+  std::vector<double> power_w;  ///< by Energy: mean power over the window
+  double energy_residual = 0;   ///< of the throughput
   /// Largest change of a span's mean tension from the first half of the window to the second, of its mean: a drive
   /// that has not settled shows here.
   double drift = 0;

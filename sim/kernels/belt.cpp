@@ -66,8 +66,8 @@ BELTLIFE_VECTOR void shear(int n, const double* __restrict moment, const double*
   }
 }
 
-BELTLIFE_VECTOR void differences(int n, const double* __restrict gx, const double* __restrict gy,
-                                 double* __restrict fx, double* __restrict fy) {
+BELTLIFE_VECTOR void differences(int n, const double* __restrict gx, const double* __restrict gy, double* __restrict fx,
+                                 double* __restrict fy) {
   for (int i = 0; i < n; ++i) {
     fx[i] = gx[i] - gx[i - 1];
     fy[i] = gy[i] - gy[i - 1];
@@ -76,7 +76,8 @@ BELTLIFE_VECTOR void differences(int n, const double* __restrict gx, const doubl
 
 void apply_shear(Evaluation& e) {
   Work& w = e.work;
-  shear(e.model.belt.nodes, w.moment.data(), w.inverse_length.data(), w.ux.data(), w.uy.data(), w.gx.data(), w.gy.data());
+  shear(e.model.belt.nodes, w.moment.data(), w.inverse_length.data(), w.ux.data(), w.uy.data(), w.gx.data(),
+        w.gy.data());
 }
 
 }  // namespace

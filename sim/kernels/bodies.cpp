@@ -13,7 +13,8 @@ void torsional_springs(Evaluation& e) {
   const auto& springs = e.model.springs;
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const TorsionalSpring& s = springs[i];
-    const double t = s.stiffness * (e.q.angle[s.from] - e.q.angle[s.to]) + s.damping * (e.q.speed[s.from] - e.q.speed[s.to]);
+    const double t =
+        s.stiffness * (e.q.angle[s.from] - e.q.angle[s.to]) + s.damping * (e.q.speed[s.from] - e.q.speed[s.to]);
     e.work.spring_torque[i] = t;
     e.work.torque[s.from] -= t;
     e.work.torque[s.to] += t;

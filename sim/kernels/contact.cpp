@@ -25,14 +25,11 @@ struct SegmentConstants {
 };
 
 template <bool Commit>
-[[gnu::always_inline]] inline void segment_loop(int begin, int end, const SegmentConstants& c,
-                                                const double* __restrict x, const double* __restrict y,
-                                                const double* __restrict vx, const double* __restrict vy,
-                                                double* __restrict anchor, double* __restrict slip,
-                                                double* __restrict normal, double* __restrict tangential,
-                                                double* __restrict contact_x, double* __restrict contact_y,
-                                                double* __restrict contact_moment, double* __restrict fx,
-                                                double* __restrict fy) {
+[[gnu::always_inline]] inline void segment_loop(
+    int begin, int end, const SegmentConstants& c, const double* __restrict x, const double* __restrict y,
+    const double* __restrict vx, const double* __restrict vy, double* __restrict anchor, double* __restrict slip,
+    double* __restrict normal, double* __restrict tangential, double* __restrict contact_x,
+    double* __restrict contact_y, double* __restrict contact_moment, double* __restrict fx, double* __restrict fy) {
   for (int i = begin; i < end; ++i) {
     const double dx = x[i] - c.centre.x, dy = y[i] - c.centre.y;
     const double rvx = vx[i] - c.centre.vx, rvy = vy[i] - c.centre.vy;

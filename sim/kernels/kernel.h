@@ -22,7 +22,7 @@ namespace beltlife {
 /// How far history (friction anchors) moves in one pass: by old_weight x rate of the previous pass + new_weight x
 /// rate of this pass; it is kept only if `commit`.
 struct Pass {
-  double time = 0;  ///< s
+  double time = 0;                        ///< s
   double old_weight = 0, new_weight = 0;  ///< s
   bool commit = false;
 };

@@ -11,6 +11,7 @@ namespace beltlife {
 /// pulley (spans are named by the pulleys they join, in scene order, the last span is LAST-FIRST).
 /// `unstretched_length_m` is the solved one. Loads that the window did not record (no sample, no pass) are NaN, which
 /// life.h turns into an error in words; a missing channel is a bug and throws std::logic_error.
-RangeLoad range_load(const SceneSpec& scene, double unstretched_length_m, const RunRecord& run, const WindowRecord& window);
+RangeLoad range_load(const SceneSpec& scene, double unstretched_length_m, const RunRecord& run,
+                     const WindowRecord& window);
 
 }  // namespace beltlife

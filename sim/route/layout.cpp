@@ -21,25 +21,39 @@ std::size_t pulley_index(const SceneSpec& scene, const std::string& name) {
   return scene.pulley.size();
 }
 
-// The loop can be traversed in the listed order with front pulleys on the left (+1) or on the right (-1). A drive with
-// three pulleys or more closes as a simple loop one way only; two pulleys close both ways alike.
-int orientation_of(const SceneSpec& scene) {
-  int best = 1;
-  double best_length = 0;
-  bool found = false;
-  for (int orientation : {1, -1}) {
-    Route route;
-    if (!make_route(circles_of(scene, orientation, 0), route) || !route.simple) continue;
-    if (!found || route.length < best_length * (1 - 1e-12)) {
-      best = orientation;
-      best_length = route.length;
-      found = true;
-    }
-  }
-  return best;
+bool crossing(const Span& a, const Span& b) {
+  const auto side = [](const Span& s, const Vec2& p) {
+    return s.direction.x * (p.y - s.from.y) - s.direction.y * (p.x - s.from.x);
+  };
+  return side(a, b.from) * side(a, b.to) < 0 && side(b, a.from) * side(b, a.to) < 0;
 }
 
-std::string key_of(const SceneSpec& scene, std::size_t pulley) { return "pulley." + scene.pulley[pulley].name + ".x_mm"; }
+bool crosses_itself(const Route& route) {
+  for (std::size_t i = 0; i < route.spans.size(); ++i)
+    for (std::size_t j = i + 1; j < route.spans.size(); ++j)
+      if (crossing(route.spans[i], route.spans[j])) return true;
+  return false;
+}
+
+// The loop can be traversed in the listed order with front pulleys on the left (+1) or on the right (-1). Of both, the
+// one that closes without crossing itself; two pulleys close both ways alike. If neither does, the sense in which the
+// centres go round, so that a refusal can say what is wrong there.
+int orientation_of(const SceneSpec& scene) {
+  for (int orientation : {1, -1}) {
+    Route route;
+    if (make_route(circles_of(scene, orientation, 0), route) && route.simple && !crosses_itself(route)) return orientation;
+  }
+  double area = 0;
+  for (std::size_t i = 0; i < scene.pulley.size(); ++i) {
+    const PulleySpec &a = scene.pulley[i], &b = scene.pulley[(i + 1) % scene.pulley.size()];
+    area += a.x_mm * b.y_mm - b.x_mm * a.y_mm;
+  }
+  return area < 0 ? -1 : 1;
+}
+
+std::string key_of(const SceneSpec& scene, std::size_t pulley) {
+  return "pulley." + scene.pulley[pulley].name + ".x_mm";
+}
 
 double distance_to_span(const Span& span, double x, double y) {
   const double s = (x - span.from.x) * span.direction.x + (y - span.from.y) * span.direction.y;
@@ -101,7 +115,7 @@ Layout layout_at(const SceneSpec& scene, int orientation, double angle) {
   Layout layout;
   layout.arm_angle = angle;
   const auto circles = circles_of(scene, orientation, angle);
-  if (!make_route(circles, layout.route) || !layout.route.simple) {
+  if (!make_route(circles, layout.route) || !layout.route.simple || crosses_itself(layout.route)) {
     layout.route.length = std::nan("");
     return layout;
   }
@@ -119,10 +133,23 @@ Layout layout_at(const SceneSpec& scene, int orientation, double angle) {
   throw BadInput({Problem{std::string(file), 0, std::move(key), std::move(what), std::move(allowed)}});
 }
 
-void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, std::string_view file, const char* where) {
+void add_crossings(const SceneSpec& scene, const Route& route, std::string_view file, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < route.spans.size(); ++i)
+    for (std::size_t j = i + 1; j < route.spans.size(); ++j)
+      if (crossing(route.spans[i], route.spans[j]))
+        problems.push_back({std::string(file), 0, key_of(scene, j),
+                            fmt::format("the belt would cross itself: span {} runs through span {}",
+                                        span_name(scene, i), span_name(scene, j)),
+                            "pulleys in the order in which the belt passes them, each with the right side"});
+}
+
+void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, std::string_view file,
+                       const char* where) {
   std::vector<Problem> problems;
   for (const auto& c : clearances(scene, route))
-    if (c.value < 0) problems.push_back({std::string(file), 0, c.key, c.words + where, "pulleys and spans clear of each other"});
+    if (c.value < 0)
+      problems.push_back({std::string(file), 0, c.key, c.words + where, "pulleys and spans clear of each other"});
+  if (problems.empty() && closed) add_crossings(scene, route, file, problems);
   if (problems.empty() && !closed)
     problems.push_back({std::string(file), 0, "pulley", std::string("the belt does not close as a simple loop") + where,
                         "list the pulleys in the order in which the belt passes them, with the right side each"});
@@ -134,7 +161,8 @@ void refuse_overstretched(const StaticState& s, std::string_view file) {
   const double strain = s.balance.route.length / s.unstretched_length - 1;
   if (strain > 0.1)
     refuse(file, "belt.unstretched_length_mm",
-           fmt::format("the belt would be stretched by {:.0f} % at rest and carry {:.0f} N", 100 * strain, s.balance.tension),
+           fmt::format("the belt would be stretched by {:.0f} % at rest and carry {:.0f} N", 100 * strain,
+                       s.balance.tension),
            fmt::format("at least {:.0f} mm for this layout", 1e3 * s.balance.route.length / 1.1));
 }
 
@@ -147,8 +175,8 @@ std::string span_name(const SceneSpec& scene, std::size_t i) {
 std::vector<Circle> circles_of(const SceneSpec& scene, int orientation, double arm_angle) {
   std::vector<Circle> circles;
   for (const auto& p : scene.pulley)
-    circles.push_back({p.x_mm * 1e-3, p.y_mm * 1e-3, p.pitch_diameter_mm * 5e-4,
-                       p.side == Side::front ? orientation : -orientation});
+    circles.push_back(
+        {p.x_mm * 1e-3, p.y_mm * 1e-3, p.pitch_diameter_mm * 5e-4, p.side == Side::front ? orientation : -orientation});
   if (scene.tensioner) {
     Circle& c = circles[pulley_index(scene, scene.tensioner->pulley)];
     const double px = scene.tensioner->pivot_x_mm * 1e-3, py = scene.tensioner->pivot_y_mm * 1e-3;
@@ -167,8 +195,10 @@ std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j) {
       const double gap = 1e3 * (std::hypot(c[i].x - c[j].x, c[i].y - c[j].y) - c[i].radius - c[j].radius);
-      out.push_back({fmt::format("pulleys {} and {}", scene.pulley[i].name, scene.pulley[j].name), gap, "mm",
-                     fmt::format("pulleys {} and {} overlap by {:.1f} mm", scene.pulley[i].name, scene.pulley[j].name, -gap), key_of(scene, j)});
+      out.push_back(
+          {fmt::format("pulleys {} and {}", scene.pulley[i].name, scene.pulley[j].name), gap, "mm",
+           fmt::format("pulleys {} and {} overlap by {:.1f} mm", scene.pulley[i].name, scene.pulley[j].name, -gap),
+           key_of(scene, j)});
       overlap = overlap || gap < 0;
     }
   if (overlap || !route.simple) {
@@ -177,9 +207,11 @@ std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
       for (std::size_t i = 0; i < count; ++i) {
         const double missing = route.wrap[i] / degree - 360;
         if (missing > -120)
-          out.push_back({"wrap on " + scene.pulley[i].name, missing, "deg",
-                         fmt::format("the wrap on {} vanishes: the belt would pass it on its {} side by {:.1f} degrees",
-                                     scene.pulley[i].name, scene.pulley[i].side == Side::front ? "back" : "front", -missing), key_of(scene, i)});
+          out.push_back(
+              {"wrap on " + scene.pulley[i].name, missing, "deg",
+               fmt::format("the wrap on {} vanishes: the belt would pass it on its {} side by {:.1f} degrees",
+                           scene.pulley[i].name, scene.pulley[i].side == Side::front ? "back" : "front", -missing),
+               key_of(scene, i)});
       }
     return out;
   }
@@ -191,7 +223,8 @@ std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route) {
       const double gap = 1e3 * (distance_to_span(route.spans[i], c[j].x, c[j].y) - c[j].radius);
       out.push_back({fmt::format("belt {} and pulley {}", span_name(scene, i), scene.pulley[j].name), gap, "mm",
                      fmt::format("the belt between {} and {} runs through pulley {} by {:.1f} mm", scene.pulley[i].name,
-                                 scene.pulley[(i + 1) % count].name, scene.pulley[j].name, -gap), key_of(scene, j)});
+                                 scene.pulley[(i + 1) % count].name, scene.pulley[j].name, -gap),
+                     key_of(scene, j)});
     }
   return out;
 }
@@ -234,7 +267,8 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
     const auto imbalance = [&](double a) {
       const Layout l = layout_at(scene, s.orientation, a);
       if (std::isnan(l.route.length)) return std::nan("");
-      const double tension = scene.belt.pretension_n ? *scene.belt.pretension_n : std::max(tension_of(l.route.length), 0.0);
+      const double tension =
+          scene.belt.pretension_n ? *scene.belt.pretension_n : std::max(tension_of(l.route.length), 0.0);
       return arm.spring_torque(a) - tension * l.length_per_arm_angle;
     };
     if (!root_near_zero(imbalance, std::numbers::pi, angle))
@@ -242,8 +276,8 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
              scene.belt.pretension_n
                  ? fmt::format("no arm angle gives a tension of {:g} N at rest", *scene.belt.pretension_n)
                  : fmt::format("no arm angle balances a belt of {:g} mm", 1e3 * s.unstretched_length),
-             fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N", 1e3 * s.placed.route.length,
-                         s.placed.tension));
+             fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N",
+                         1e3 * s.placed.route.length, s.placed.tension));
     if (scene.belt.pretension_n)
       s.unstretched_length = layout_at(scene, s.orientation, angle).route.length / (1 + *scene.belt.pretension_n / ea);
   }

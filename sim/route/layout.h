@@ -22,15 +22,15 @@ struct Clearance {
 struct Layout {
   double arm_angle = 0;
   Route route;
-  double tension = 0;              ///< uniform static tension, N
-  double length_per_arm_angle = 0; ///< d(path length)/d(arm angle), m/rad; 0 without tensioner
+  double tension = 0;               ///< uniform static tension, N
+  double length_per_arm_angle = 0;  ///< d(path length)/d(arm angle), m/rad; 0 without tensioner
 };
 
 /// Both readings of a layout: as the scene places the arm, and in balance.
 struct StaticState {
-  int orientation = 1;               ///< +1: the scene's pulley order runs counterclockwise round the loop
-  double unstretched_length = 0;     ///< m, given or solved
-  Layout placed;                     ///< arm as placed; its tension is what balances the spring there
+  int orientation = 1;                   ///< +1: the scene's pulley order runs counterclockwise round the loop
+  double unstretched_length = 0;         ///< m, given or solved
+  Layout placed;                         ///< arm as placed; its tension is what balances the spring there
   double placed_unstretched_length = 0;  ///< m, of the belt that would be at rest with the arm as placed
   double placed_strain_tension = 0;  ///< N, what the belt of `unstretched_length` would carry with the arm as placed
   Layout balance;                    ///< arm at rest (frictionless)

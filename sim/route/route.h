@@ -19,16 +19,16 @@ struct Circle {
 
 /// Free span from circle i to circle i + 1 (cyclic).
 struct Span {
-  Vec2 from, to;       ///< tangent points, m
-  Vec2 direction;      ///< unit vector
-  double length = 0;   ///< m
+  Vec2 from, to;      ///< tangent points, m
+  Vec2 direction;     ///< unit vector
+  double length = 0;  ///< m
 };
 
 /// The path in the order of the circles, whatever way the belt runs. Lengths in m, angles in rad.
 struct Route {
   std::vector<Circle> circles;
-  std::vector<Span> spans;     ///< span i leads from circle i to circle i + 1
-  std::vector<double> wrap;    ///< arc on circle i, in [0, 2 pi)
+  std::vector<Span> spans;   ///< span i leads from circle i to circle i + 1
+  std::vector<double> wrap;  ///< arc on circle i, in [0, 2 pi)
   double length = 0;
 
   /// Whether the path closes as a simple loop (total turning 2 pi).

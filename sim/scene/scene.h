@@ -59,9 +59,11 @@ struct BeltSpec {
   template <class V>
   void visit(V& v) {
     v("elements", elements, within(16, 20000), "number of belt elements (and of nodes)");
-    v("unstretched_length_mm", unstretched_length_mm, above(0, 1e5), "belt length without tension; give exactly one of this, pretension_n, balanced_as_placed");
+    v("unstretched_length_mm", unstretched_length_mm, above(0, 1e5),
+      "belt length without tension; give exactly one of this, pretension_n, balanced_as_placed");
     v("pretension_n", pretension_n, above(0, 1e6), "wanted tension at rest; the unstretched length is solved for");
-    v("balanced_as_placed", balanced_as_placed, any_text, "true: the tensioner is at rest where its pulley is placed; the unstretched length is solved for");
+    v("balanced_as_placed", balanced_as_placed, any_text,
+      "true: the tensioner is at rest where its pulley is placed; the unstretched length is solved for");
     v("axial_stiffness_n", axial_stiffness_n, required(above(0, 1e9)), "EA, force per unit strain (thesis 2.28)");
     v("axial_damping_n_s", axial_damping_n_s, within(0, 1e6), "CA, force per unit strain rate (thesis 2.28)");
     v("bending_stiffness_n_m2", bending_stiffness_n_m2, within(0, 1e4), "EI (thesis 2.29)");
@@ -86,9 +88,12 @@ struct ContactSpec {
   void visit(V& v) {
     v("stiffness_n_per_m3", stiffness_n_per_m3, above(0, 1e15), "k_p, penalty stiffness per unit area (thesis 2.24)");
     v("damping_n_s_per_m3", damping_n_s_per_m3, within(0, 1e10), "c_p, penalty damping per unit area (thesis 2.24)");
-    v("separation_factor", separation_factor, within(0, 1), "s_p, share of c_p that acts while separating (thesis 2.24)");
-    v("friction_stiffness_n_per_m3", friction_stiffness_n_per_m3, above(0, 1e15), "k_t, anchor spring stiffness per unit area (thesis 2.3.2)");
-    v("friction_speed_m_s", friction_speed_m_s, above(0, 10), "v_s, slip speed at which the velocity element saturates");
+    v("separation_factor", separation_factor, within(0, 1),
+      "s_p, share of c_p that acts while separating (thesis 2.24)");
+    v("friction_stiffness_n_per_m3", friction_stiffness_n_per_m3, above(0, 1e15),
+      "k_t, anchor spring stiffness per unit area (thesis 2.3.2)");
+    v("friction_speed_m_s", friction_speed_m_s, above(0, 10),
+      "v_s, slip speed at which the velocity element saturates");
     v("anchor_share", anchor_share, within(0, 1), "beta, share of the friction limit carried by the anchor spring");
   }
 };
@@ -140,11 +145,14 @@ struct TensionerSpec {
     v("mass_kg", mass_kg, required(within(0, 1e4)), "arm without its pulley");
     v("inertia_kg_m2", inertia_kg_m2, required(within(0, 1e4)), "arm about its centre of gravity, without its pulley");
     v("cg_distance_mm", cg_distance_mm, within(-1e4, 1e4), "centre of gravity from the pivot toward the pulley");
-    v("spring_torque_n_m", spring_torque_n_m, required(within(0, 1e5)), "at the placed position, in the sense that lengthens the belt path");
-    v("spring_rate_n_m_per_rad", spring_rate_n_m_per_rad, within(0, 1e6), "added torque per rotation in the sense that shortens the belt path");
+    v("spring_torque_n_m", spring_torque_n_m, required(within(0, 1e5)),
+      "at the placed position, in the sense that lengthens the belt path");
+    v("spring_rate_n_m_per_rad", spring_rate_n_m_per_rad, within(0, 1e6),
+      "added torque per rotation in the sense that shortens the belt path");
     v("damping_n_m_s_per_rad", damping_n_m_s_per_rad, within(0, 1e4), "viscous damping at the pivot");
     v("friction_torque_n_m", friction_torque_n_m, within(0, 1e5), "dry friction at the pivot");
-    v("friction_stiffness_n_m_per_rad", friction_stiffness_n_m_per_rad, above(0, 1e9), "stiffness of the anchor spring through which the dry friction sticks");
+    v("friction_stiffness_n_m_per_rad", friction_stiffness_n_m_per_rad, above(0, 1e9),
+      "stiffness of the anchor spring through which the dry friction sticks");
     v("locked", locked, any_text, "true: the arm cannot turn; it stays at its balance");
   }
 };
@@ -213,9 +221,12 @@ struct TorqueSpec {
   void visit(V& v) {
     v("name", name, required_text, "unique among torques");
     v("body", body, required_text, "pulley or body on which the torque acts, and whose speed the table is over");
-    v("speeds_rpm", speeds_rpm, required(within(0, 1e6)), "increasing; linear between entries, held above the last, linear to zero below the first, zero for speeds <= 0");
-    v("torques_n_m", torques_n_m, required(within(-1e6, 1e6)), "positive pushes the body in its direction of motion, negative is a load");
-    v("referred_to", referred_to, any_text, "pulley or body at whose speed the torques are stated; the body receives them times the speed ratio");
+    v("speeds_rpm", speeds_rpm, required(within(0, 1e6)),
+      "increasing; linear between entries, held above the last, linear to zero below the first, zero for speeds <= 0");
+    v("torques_n_m", torques_n_m, required(within(-1e6, 1e6)),
+      "positive pushes the body in its direction of motion, negative is a load");
+    v("referred_to", referred_to, any_text,
+      "pulley or body at whose speed the torques are stated; the body receives them times the speed ratio");
   }
 };
 
@@ -231,7 +242,8 @@ struct HarmonicSpec {
     v("name", name, required_text, "unique among harmonics");
     v("order", order, required(above(0, 100)), "cycles per revolution of the driven body");
     v("phase_rad", phase_rad, within(-100, 100), "speed is mean + amplitude cos(order x angle + phase)");
-    v("speeds_rpm", speeds_rpm, required(within(0, 1e6)), "increasing mean speeds of the table; held above the last, proportional to speed below the first");
+    v("speeds_rpm", speeds_rpm, required(within(0, 1e6)),
+      "increasing mean speeds of the table; held above the last, proportional to speed below the first");
     v("amplitudes_rpm", amplitudes_rpm, required(within(0, 1e5)), "amplitude at each speed");
   }
 };
@@ -254,7 +266,8 @@ struct DriverSpec {
     v("angle_gain_n_m_per_rad", angle_gain_n_m_per_rad, within(0, 1e12), "pid: torque per angle error");
     v("phase_rad", phase_rad, within(-100, 100), "added to the driven body's nominal angle: shifts all harmonics");
     v("ripple_scale", ripple_scale, within(0, 100), "multiplies every harmonic's amplitude");
-    v("speed_csv", speed_csv, any_text, "measured profile, columns time_s, speed_rpm; replaces mean speed and harmonics; relative to the scene file");
+    v("speed_csv", speed_csv, any_text,
+      "measured profile, columns time_s, speed_rpm; replaces mean speed and harmonics; relative to the scene file");
     v("harmonic", harmonic, any_text, "speed ripple by order of rotation");
   }
 };
@@ -319,7 +332,8 @@ struct SolverSpec {
   void visit(V& v) {
     v("scheme", scheme, any_text, "time integrator");
     v("step_s", step_s, above(0, 1e-2), "time step; absent: the predicted stable step");
-    v("sample_rate_hz", sample_rate_hz, above(0, 1e5), "rate of the recorded channels and of the sampled contact forces");
+    v("sample_rate_hz", sample_rate_hz, above(0, 1e5),
+      "rate of the recorded channels and of the sampled contact forces");
   }
 };
 
@@ -331,7 +345,8 @@ struct OutputSpec {
   template <class V>
   void visit(V& v) {
     v("body", body, required_text, "pulley or body whose speed is the output");
-    v("spring", spring, any_text, "torsional spring whose torque is the output; absent: the torque of the belt on the body, a pulley");
+    v("spring", spring, any_text,
+      "torsional spring whose torque is the output; absent: the torque of the belt on the body, a pulley");
   }
 };
 

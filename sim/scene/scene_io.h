@@ -38,7 +38,7 @@ class BadInput : public std::runtime_error {
 struct SceneFile {
   SceneSpec scene;
   std::filesystem::path path;
-  std::string text;  ///< the file as read
+  std::string text;                  ///< the file as read
   std::map<std::string, int> lines;  ///< where each field stands; for located()
 };
 
@@ -61,7 +61,8 @@ std::string write_scene(const SceneSpec& scene);
 /// "solver.scheme=thesis". An absent optional section cannot be created. Throws BadInput.
 void set_field(SceneSpec& scene, std::string_view setting);
 
-/// Numeric fields by path (parameters): value, in the field's own unit. Throws BadInput for an unknown or non-numeric path.
+/// Numeric fields by path (parameters): value, in the field's own unit. Throws BadInput for an unknown or non-numeric
+/// path.
 double get_number(const SceneSpec& scene, std::string_view path);
 void set_number(SceneSpec& scene, std::string_view path, double value);
 

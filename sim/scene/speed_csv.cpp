@@ -25,7 +25,8 @@ std::string trimmed(const std::string& text) {
 // The beginning of a line, fit for a terminal even if the file is no text.
 std::string excerpt(const std::string& line) {
   std::string text = line.substr(0, 60);
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   return text;
 }
 
@@ -40,7 +41,8 @@ bool number(const std::string& text, double& value) {
 MeasuredSpeed read_speed_csv(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in || std::filesystem::is_directory(path))
-    throw BadInput({Problem{path.string(), 0, "driver.speed_csv", "cannot be read", "an existing CSV file, relative to the scene"}});
+    throw BadInput({Problem{path.string(), 0, "driver.speed_csv", "cannot be read",
+                            "an existing CSV file, relative to the scene"}});
   constexpr std::size_t most = 20;  // problems listed before giving up on the file
   std::vector<Problem> problems;
   MeasuredSpeed out;
@@ -52,8 +54,11 @@ MeasuredSpeed read_speed_csv(const std::filesystem::path& path) {
     text = trimmed(text);
     if (text.empty() || text[0] == '#') continue;
     const auto comma = text.find(',');
-    const std::string first = trimmed(text.substr(0, comma)), second = comma == std::string::npos ? "" : trimmed(text.substr(comma + 1));
-    const auto bad = [&](std::string what) { problems.push_back({path.string(), line, "driver.speed_csv", std::move(what), allowed}); };
+    const std::string first = trimmed(text.substr(0, comma)),
+                      second = comma == std::string::npos ? "" : trimmed(text.substr(comma + 1));
+    const auto bad = [&](std::string what) {
+      problems.push_back({path.string(), line, "driver.speed_csv", std::move(what), allowed});
+    };
     if (!header) {
       if (first != "time_s" || second != "speed_rpm") bad(fmt::format("the first line is \"{}\"", excerpt(text)));
       header = true;

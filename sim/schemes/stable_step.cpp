@@ -48,7 +48,8 @@ double expected_normal_force(const Model& m, int pulley) {
   return peak * expected_tension(m) * m.belt.element_length / m.pulley_radius[pulley];
 }
 
-void add_pair(std::vector<StepLimit>& out, Scheme scheme, const std::string& name, double k, double c, double mobility) {
+void add_pair(std::vector<StepLimit>& out, Scheme scheme, const std::string& name, double k, double c,
+              double mobility) {
   out.push_back({name, "mode (k, c) x (1/J1 + 1/J2)", mode_limit(scheme, k * mobility, c * mobility)});
 }
 
@@ -82,16 +83,19 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {
   double slope = 0;
   for (int p = 0; p < m.pulleys; ++p)
     slope = std::max(slope, friction_damping_rate(m, m.pulley_friction[p], expected_normal_force(m, p)));
-  out.push_back({"axial belt wave, damping and friction slope", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m) + mu Fn (1-beta)/(vs m)",
+  out.push_back({"axial belt wave, damping and friction slope",
+                 "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m) + mu Fn (1-beta)/(vs m)",
                  mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m) + slope)});
   if (slope == 0 || b.axial_damping == 0)
     out.push_back({"axial belt wave", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m)",
                    mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m))});
   if (b.bending_damping > 0 || b.bending_stiffness > 0)
     out.push_back({"bending", "w^2 = 16 EI/(l0^3 m), c = 16 CI/(l0^3 m)",
-                   mode_limit(scheme, 16 * b.bending_stiffness / (l * l * l * mass), 16 * b.bending_damping / (l * l * l * mass))});
+                   mode_limit(scheme, 16 * b.bending_stiffness / (l * l * l * mass),
+                              16 * b.bending_damping / (l * l * l * mass))});
   if (m.pulleys > 0) {
-    out.push_back({"contact penalty", "w^2 = A kp/m, c = A cp/m", mode_limit(scheme, m.contact.stiffness / mass, m.contact.damping / mass)});
+    out.push_back({"contact penalty", "w^2 = A kp/m, c = A cp/m",
+                   mode_limit(scheme, m.contact.stiffness / mass, m.contact.damping / mass)});
     // Along the surface the axial damping acts on a sticking node too, which keeps the scheme from amplifying it.
     out.push_back({"friction anchor", "w^2 = A kt/m, c = 4 CA/(l0 m)",
                    mode_limit(scheme, m.contact.friction_stiffness / mass, axial_damping_rate(m))});
@@ -109,7 +113,8 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {
   }
   if (m.tensioner.pulley >= 0 && !m.tensioner.locked)
     out.push_back({"tensioner arm", "w^2 = (rate + friction anchor)/J, c = damping/J",
-                   mode_limit(Scheme::symplectic_euler, (m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
+                   mode_limit(Scheme::symplectic_euler,
+                              (m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
                               m.tensioner.damping / m.tensioner.inertia)});
   if (m.driver.body >= 0 && !m.prescribed())
     out.push_back({"pid driver", "w^2 = angle gain/J, c = speed gain/J",

@@ -28,6 +28,7 @@ std::vector<double> default_orders();
 /// `angle_rad` is the driven body's nominal angle at each sample, counted positive in its running sense. Orders
 /// above the Nyquist order of the window are left out. Empty if the window is too short to tell the orders apart
 /// (fewer than two revolutions).
-std::vector<OrderAmplitude> track_orders(std::span<const double> signal, std::span<const double> angle_rad, std::span<const double> orders);
+std::vector<OrderAmplitude> track_orders(std::span<const double> signal, std::span<const double> angle_rad,
+                                         std::span<const double> orders);
 
 }  // namespace beltlife

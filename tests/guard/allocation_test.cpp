@@ -38,9 +38,10 @@ namespace {
 
 TEST(AllocationCounter, SeesPlainArrayAndAlignedAllocations) {
   const long before = allocations;
-  delete new int(1);
-  delete[] new double[3];
-  NodeArray nodes(16);
+  // Calls by name, which the optimiser may not leave out as it may new-expressions.
+  ::operator delete(::operator new(4));
+  ::operator delete[](::operator new[](24));
+  const NodeArray nodes(16);
   EXPECT_GE(allocations - before, 3);
 }
 
@@ -57,7 +58,7 @@ TEST_P(Stepping, AllocatesNothingOnceTheContactsHaveGrown) {
   const long before = allocations;
   while (s.time() < 0.02) s.advance();
   EXPECT_EQ(allocations - before, 0);
-  if (model.pulleys > 0) EXPECT_GT(s.state().refresh_step, search);  // contacts were searched for meanwhile
+  EXPECT_EQ(s.state().refresh_step > search, model.pulleys > 0);  // contacts were searched for meanwhile
 }
 
 TEST_P(Stepping, IsAccountedForWithoutAllocating) {
@@ -72,21 +73,20 @@ TEST_P(Stepping, IsAccountedForWithoutAllocating) {
   EXPECT_EQ(allocations - before, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryKindOfDrive, Stepping,
-                         testing::Values(std::pair{"baseline", Scheme::thesis}, std::pair{"baseline", Scheme::symplectic_euler},
-                                         std::pair{"accessory_drive", Scheme::symplectic_euler},
-                                         std::pair{"two_pulley", Scheme::thesis}, std::pair{"spinning_ring", Scheme::thesis}),
-                         [](const auto& info) {
-                           return std::string(info.param.first) + "_" + std::string(enum_name(info.param.second));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    EveryKindOfDrive, Stepping,
+    testing::Values(std::pair{"baseline", Scheme::thesis}, std::pair{"baseline", Scheme::symplectic_euler},
+                    std::pair{"accessory_drive", Scheme::symplectic_euler}, std::pair{"two_pulley", Scheme::thesis},
+                    std::pair{"spinning_ring", Scheme::thesis}),
+    [](const auto& info) { return std::string(info.param.first) + "_" + std::string(enum_name(info.param.second)); });
 
 // Allocations of a whole run may depend on its windows and channels, never on its number of steps.
 TEST(Run, AllocatesAsOftenHoweverManyStepsItTakes) {
   const auto allocations_of = [](const char* step) {
     const SceneSpec scene =
-        read_scene(BELTLIFE_SCENES "/baseline.toml", {"belt.elements=128", std::string("solver.step_s=") + step,
-                                                      "profile.settle_s=0.01", "profile.ramp_s=0.02", "profile.hold_s=0.02",
-                                                      "profile.evaluate_s=0.01"})
+        read_scene(BELTLIFE_SCENES "/baseline.toml",
+                   {"belt.elements=128", std::string("solver.step_s=") + step, "profile.settle_s=0.01",
+                    "profile.ramp_s=0.02", "profile.hold_s=0.02", "profile.evaluate_s=0.01"})
             .scene;
     const Model model = compile(scene);
     const RunPlan plan = plan_range(scene, scene.range[0]);

@@ -9,7 +9,7 @@ namespace {
 TEST(Format, IsThatOfClangFormat) {
   if (!installed("clang-format")) GTEST_SKIP() << "clang-format is not installed";
   std::string command = "cd " + quoted(source) + " && clang-format --dry-run -Werror --style=file";
-  for (const std::string& file : cpp_files()) command += " " + quoted(file);
+  for (const std::string& file : cpp_files()) command.append(" ").append(quoted(file));
   const Output output = shell(command);
   EXPECT_EQ(output.code, 0) << output.text.substr(0, 4000) << "\nput right by: clang-format -i";
 }

@@ -35,8 +35,8 @@ bool in_any(const std::string& path, const std::vector<std::string>& folders) {
 
 // The simulator's core takes a Spec and gives numbers: no file format, no command line.
 bool is_core(const std::string& file) {
-  return in(file, "sim") && (file.find('/', 4) == file.npos ||
-                             in_any(file, {"sim/kernels", "sim/schemes", "sim/route", "sim/signal"}));
+  return in(file, "sim") &&
+         (file.find('/', 4) == file.npos || in_any(file, {"sim/kernels", "sim/schemes", "sim/route", "sim/signal"}));
 }
 
 const std::vector<std::string> drivers{"calibrate", "studies", "optimize"};
@@ -68,14 +68,16 @@ TEST(Includes, AreSeen) {
 TEST(Includes, OfTheSimulatorNeverReachResultsOrDrivers) {
   for (const Include& i : includes())
     if (in(i.file, "sim")) {
-      EXPECT_FALSE(in_any(i.header, {"results", "calibrate", "studies", "optimize", "tests"})) << i.file << " includes " << i.header;
+      EXPECT_FALSE(in_any(i.header, {"results", "calibrate", "studies", "optimize", "tests"}))
+          << i.file << " includes " << i.header;
     }
 }
 
 TEST(Includes, OfTheCoreNameNoFileFormatAndNoCommandLine) {
   for (const Include& i : includes())
     if (is_core(i.file)) {
-      EXPECT_FALSE(in_any(i.header, {"nlohmann", "CLI", "toml++"}) || i.header == "hdf5.h") << i.file << " includes " << i.header;
+      EXPECT_FALSE(in_any(i.header, {"nlohmann", "CLI", "toml++"}) || i.header == "hdf5.h")
+          << i.file << " includes " << i.header;
     }
 }
 
@@ -119,9 +121,10 @@ TEST(Includes, OfOpenMpStandInOneFile) {
 // Parallelism is over evaluations: a pragma elsewhere would be a second place to look for races.
 TEST(Includes, OpenMpPragmasStandBesideThem) {
   for (const std::string& file : cpp_files({"sim", "results", "calibrate", "studies", "optimize"}))
-    if (file != "sim/eval/parallel_for.cpp")
-      for (const std::string& line : lines_of(file))
-        EXPECT_FALSE(line.starts_with("#pragma omp") && line.find("simd") == line.npos) << file << ": " << line;
+    for (const std::string& line : lines_of(file)) {
+      const bool threads = line.starts_with("#pragma omp") && line.find("simd") == line.npos;
+      EXPECT_FALSE(threads && file != "sim/eval/parallel_for.cpp") << file << ": " << line;
+    }
 }
 
 TEST(Includes, OfProductCodeNeverReachTests) {

@@ -10,8 +10,8 @@ namespace {
 
 TEST(Layout, TopLevelHoldsOnlyWhatItIsMeantTo) {
   const std::set<std::string> folders{"sim", "calibrate", "optimize", "studies", "tests", "results"};
-  const std::set<std::string> names{"CMakeLists.txt", "CMakePresets.json", "main.cpp", "demo.sh", "test.sh",
-                                    "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"};
+  const std::set<std::string> names{"CMakeLists.txt", "CMakePresets.json", "main.cpp",        "demo.sh", "test.sh",
+                                    "README.md",      "CHANGELOG.md",      "CONTRIBUTING.md", "LICENSE"};
   for (const std::string& file : all_files()) {
     const auto slash = file.find('/');
     const std::string top = file.substr(0, slash);

@@ -28,8 +28,8 @@ Names without(Names names, const char* name) {
 
 TEST(Program, OfTheBaselineIsThis) {
   EXPECT_EQ(program_of(scene_of("baseline.toml")),
-            (Names{"belt ghosts", "belt axial, turning", "belt bending damping", "belt forces", "clear torques", "contact",
-                   "torsional springs", "gear mesh", "torque tables", "tensioner arm"}));
+            (Names{"belt ghosts", "belt axial, turning", "belt bending damping", "belt forces", "clear torques",
+                   "contact", "torsional springs", "gear mesh", "torque tables", "tensioner arm"}));
 }
 
 TEST(Program, OfARingHasNoBodiesAndNoContact) {
@@ -38,8 +38,9 @@ TEST(Program, OfARingHasNoBodiesAndNoContact) {
 }
 
 TEST(Program, OfTwoPulleysHasNoShaftsGearsOrTensioner) {
-  EXPECT_EQ(program_of(scene_of("two_pulley.toml")), (Names{"belt ghosts", "belt axial, turning", "belt bending damping",
-                                                            "belt forces", "clear torques", "contact", "torque tables"}));
+  EXPECT_EQ(program_of(scene_of("two_pulley.toml")),
+            (Names{"belt ghosts", "belt axial, turning", "belt bending damping", "belt forces", "clear torques",
+                   "contact", "torque tables"}));
 }
 
 TEST(Program, LosesBendingWithItsConstants) {
@@ -91,7 +92,8 @@ TEST(Arrays, OfBendingAreNotAllocatedWithoutIt) {
 
 TEST(Arrays, OfContactAreNotAllocatedForARing) {
   const Work ring = make_work(compile(scene_of("spinning_ring.toml")));
-  for (const NodeArray* a : {&ring.normal, &ring.tangential, &ring.slip, &ring.contact_x, &ring.contact_y, &ring.contact_moment})
+  for (const NodeArray* a :
+       {&ring.normal, &ring.tangential, &ring.slip, &ring.contact_x, &ring.contact_y, &ring.contact_moment})
     EXPECT_EQ(a->size(), 0);
   EXPECT_TRUE(ring.torque.empty());
 }

@@ -27,7 +27,8 @@ inline Output shell(const std::string& command) {
   std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (!pipe) return output;
   std::array<char, 4096> buffer;
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe)) output.text.append(buffer.data(), got);
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    output.text.append(buffer.data(), got);
   const int status = pclose(pipe);
   output.code = status < 0 ? status : (status >> 8) & 0xff;
   return output;
@@ -42,7 +43,7 @@ inline std::string quoted(const std::string& text) {
     if (c == '\'') word += "'\\'";  // close, an escaped quotation mark, open again
     word += c;
   }
-  word += "'";
+  word.push_back('\'');
   return word;
 }
 
@@ -72,9 +73,7 @@ inline std::vector<std::string> all_files() {
   return files;
 }
 
-inline bool is_cpp(const std::string& file) {
-  return file.ends_with(".cpp") || file.ends_with(".h");
-}
+inline bool is_cpp(const std::string& file) { return file.ends_with(".cpp") || file.ends_with(".h"); }
 
 /// All C++ files below one of `folders`; all of them if none is named.
 inline std::vector<std::string> cpp_files(const std::vector<std::string>& folders = {}) {

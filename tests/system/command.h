@@ -126,14 +126,25 @@ inline std::string replaced(std::string text, const std::string& right, const st
 /// Settings that make a run as short as it can be and still hold two revolutions at 1000 r/min in each window, as many
 /// as order tracking needs.
 inline Arguments brief(int elements) {
-  return {"--quiet", "--elements", std::to_string(elements), "--set", "profile.settle_s=0.05",
-          "--set", "profile.ramp_s=0.1", "--set", "profile.hold_s=0.2", "--set", "profile.transition_s=0.05",
-          "--set", "profile.evaluate_s=0.15"};
+  return {"--quiet",
+          "--elements",
+          std::to_string(elements),
+          "--set",
+          "profile.settle_s=0.05",
+          "--set",
+          "profile.ramp_s=0.1",
+          "--set",
+          "profile.hold_s=0.2",
+          "--set",
+          "profile.transition_s=0.05",
+          "--set",
+          "profile.evaluate_s=0.15"};
 }
 
 /// Fails the test for every key that `object` has not.
 inline void expect_keys(const nlohmann::json& object, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key << " in " << object.dump().substr(0, 300);
+  for (const std::string& key : keys)
+    EXPECT_TRUE(object.contains(key)) << key << " in " << object.dump().substr(0, 300);
 }
 
 }  // namespace beltlife::system_test

@@ -21,7 +21,8 @@ std::vector<std::string> commands() {
   std::vector<std::string> names;
   bool listed = false;
   for (std::string line; std::getline(help, line);) {
-    if (listed && line.size() > 2 && line.starts_with("  ") && line[2] != ' ') names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    if (listed && line.size() > 2 && line.starts_with("  ") && line[2] != ' ')
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
     if (line.starts_with("Subcommands:")) listed = true;
     if (line.empty()) listed = false;
   }
@@ -31,7 +32,8 @@ std::vector<std::string> commands() {
 TEST(Help, OfEveryCommandHasAnExampleThatNamesIt) {
   const auto names = commands();
   EXPECT_GE(names.size(), 3u);
-  for (const char* known : {"check", "simulate", "life"}) EXPECT_NE(std::find(names.begin(), names.end(), known), names.end());
+  for (const char* known : {"check", "simulate", "life"})
+    EXPECT_NE(std::find(names.begin(), names.end(), known), names.end());
   for (const std::string& name : names) {
     // Commands of commands may keep their examples one level down, as long as the first level shows one.
     const std::string help = asked({name, "--help"});

@@ -10,11 +10,13 @@ namespace {
 TEST_F(InFolder, WrongUsageEndsWithOneAndPointsToTheHelp) {
   const std::string drive = scene("two_pulley");
   for (const Arguments& arguments :
-       {Arguments{}, Arguments{"simulat", drive}, Arguments{"simulate"}, Arguments{"life"}, Arguments{"simulate", drive, "--steps", "1"},
-        Arguments{"check", drive, "--out", "x.h5"}, Arguments{"simulate", drive, "--out"}, Arguments{"simulate", drive, "--out", ""},
+       {Arguments{}, Arguments{"simulat", drive}, Arguments{"simulate"}, Arguments{"life"},
+        Arguments{"simulate", drive, "--steps", "1"}, Arguments{"check", drive, "--out", "x.h5"},
+        Arguments{"simulate", drive, "--out"}, Arguments{"simulate", drive, "--out", ""},
         Arguments{"simulate", drive, "--threads", "-1"}, Arguments{"simulate", drive, "--threads", "two"},
         Arguments{"simulate", drive, "--threads", "99999999999999999999"}, Arguments{"simulate", drive, drive},
-        Arguments{"life", drive, "--flank-for", "0"}, Arguments{"life", drive, "--flank-for", "nan"}, Arguments{"--json"}}) {
+        Arguments{"life", drive, "--flank-for", "0"}, Arguments{"life", drive, "--flank-for", "nan"},
+        Arguments{"--json"}}) {
     const Answer answer = run(arguments);
     EXPECT_EQ(answer.code, 1) << testing::PrintToString(arguments) << answer.err;
     EXPECT_EQ(answer.out, "") << testing::PrintToString(arguments);
@@ -27,7 +29,7 @@ TEST_F(InFolder, WrongUsageEndsWithOneAndPointsToTheHelp) {
 /// A scene with one thing wrong, and what must be said about it.
 struct Mistake {
   std::string right, wrong;
-  std::string said_at;  ///< text whose line is named; empty: no line can be
+  std::string said_at;  ///< text whose line is named
   std::vector<std::string> says;
 };
 
@@ -43,7 +45,8 @@ class Refusal : public InFolder {
     const Answer answer = run(arguments);
     EXPECT_EQ(answer.code, 2) << testing::PrintToString(arguments) << answer.err;
     EXPECT_EQ(answer.out, "") << testing::PrintToString(arguments);
-    for (const std::string& part : says) EXPECT_NE(answer.err.find(part), answer.err.npos) << part << "\n" << answer.err;
+    for (const std::string& part : says)
+      EXPECT_NE(answer.err.find(part), answer.err.npos) << part << "\n" << answer.err;
     EXPECT_EQ(files(), before) << "something was written";
   }
   void expect_refused_by_all(const std::string& scene_file, const std::vector<std::string>& says) const {
@@ -56,30 +59,50 @@ class Refusal : public InFolder {
 TEST_F(Refusal, NamesFileLineKeyAndWhatIsAllowed) {
   const std::string good = text_of(scene("two_pulley"));
   const Mistake mistakes[] = {
-      {"mass_kg_per_m = 0.3", "mass_kg_m = 0.3", "mass_kg_m", {"belt.mass_kg_m", "did you mean 'mass_kg_per_m'?", "allowed: "}},
+      {"mass_kg_per_m = 0.3",
+       "mass_kg_m = 0.3",
+       "mass_kg_m",
+       {"belt.mass_kg_m", "did you mean 'mass_kg_per_m'?", "allowed: "}},
       {"mass_kg_per_m = 0.3", "", "[belt]", {"belt.mass_kg_per_m", "missing key", "above 0"}},
-      {"mass_kg_per_m = 0.3", "mass_kg_per_m = \"0.3 kg\"", "mass_kg_per_m", {"belt.mass_kg_per_m", "text \"0.3 kg\"", "number"}},
-      {"mass_kg_per_m = 0.3", "mass_kg_per_m = nan", "mass_kg_per_m", {"belt.mass_kg_per_m", "nan is not a finite number"}},
+      {"mass_kg_per_m = 0.3",
+       "mass_kg_per_m = \"0.3 kg\"",
+       "mass_kg_per_m",
+       {"belt.mass_kg_per_m", "text \"0.3 kg\"", "number"}},
+      {"mass_kg_per_m = 0.3",
+       "mass_kg_per_m = nan",
+       "mass_kg_per_m",
+       {"belt.mass_kg_per_m", "nan is not a finite number"}},
       {"mass_kg_per_m = 0.3", "mass_kg_per_m = inf", "mass_kg_per_m", {"belt.mass_kg_per_m", "not a finite number"}},
-      {"mass_kg_per_m = 0.3", "mass_kg_per_m = 1e300", "mass_kg_per_m", {"belt.mass_kg_per_m", "out of limits", "at most 100"}},
-      {"mass_kg_per_m = 0.3", "mass_kg_per_m = -0.3", "mass_kg_per_m", {"belt.mass_kg_per_m", "-0.3 is out of limits", "above 0"}},
+      {"mass_kg_per_m = 0.3",
+       "mass_kg_per_m = 1e300",
+       "mass_kg_per_m",
+       {"belt.mass_kg_per_m", "out of limits", "at most 100"}},
+      {"mass_kg_per_m = 0.3",
+       "mass_kg_per_m = -0.3",
+       "mass_kg_per_m",
+       {"belt.mass_kg_per_m", "-0.3 is out of limits", "above 0"}},
       {"elements = 264", "elements = 264.5", "elements", {"belt.elements", "wanted an integer", "from 16 to 20000"}},
       {"elements = 264", "elements = 3", "elements", {"belt.elements", "3 is out of limits", "from 16 to 20000"}},
-      {"name = \"driven\"", "name = \"driver\"", "name = \"driver\"\nx_mm = 500", {"pulley.driver.name", "another pulley", "unique"}},
-      {"body = \"driven\"\nspeeds", "body = \"drivn\"\nspeeds", "drivn", {"torque.load.body", "'drivn'", "did you mean 'driven'?"}},
+      {"name = \"driven\"",
+       "name = \"driver\"",
+       "name = \"driver\"\nx_mm = 500",
+       {"pulley.driver.name", "another pulley", "unique"}},
+      {"body = \"driven\"\nspeeds",
+       "body = \"drivn\"\nspeeds",
+       "drivn",
+       {"torque.load.body", "'drivn'", "did you mean 'driven'?"}},
       {"duty_share = 0.6", "duty_share = 0.7", "[[range]]", {"range", "sum to 1.1", "allowed: 1"}},
       {"format = 1", "format = 2", "format", {"format", "2 is out of limits", "allowed: 1"}},
       {"[belt]", "[belt", "[belt", {"not TOML"}},
-      {"x_mm = 500 ", "x_mm = 50 ", "", {"pulleys driver and driven overlap by 50.0 mm"}},
-      {"x_mm = 500 ", "x_mm = 0 ", "", {"pulleys driver and driven overlap by 100.0 mm"}},
+      {"x_mm = 500 ", "x_mm = 50 ", "x_mm = 50 ", {"pulleys driver and driven overlap by 50.0 mm"}},
+      {"x_mm = 500 ", "x_mm = 0.0 ", "x_mm = 0.0 ", {"pulleys driver and driven overlap by 100.0 mm"}},
   };
   for (const Mistake& mistake : mistakes) {
     SCOPED_TRACE(mistake.wrong);
     const std::string text = replaced(good, mistake.right, mistake.wrong);
     write("wrong.toml", text);
     auto says = mistake.says;
-    says.push_back(mistake.said_at.empty() ? "wrong.toml: "
-                                           : "wrong.toml:" + std::to_string(line_of(text, mistake.said_at)) + ": ");
+    says.push_back("wrong.toml:" + std::to_string(line_of(text, mistake.said_at)) + ": ");
     expect_refused_by_all("wrong.toml", says);
   }
 }

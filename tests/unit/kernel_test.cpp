@@ -98,7 +98,8 @@ TEST(BendingKernel, EqualsPlainCouplesOnNeighbouringSegments) {
     const double turn_p = (px * (q.vy[i] - q.vy[a]) - py * (q.vx[i] - q.vx[a])) / pp;
     const double turn_s = (sx * (q.vy[c] - q.vy[i]) - sy * (q.vx[c] - q.vx[i])) / ss;
     const double angle = std::remainder(std::atan2(sy, sx) - std::atan2(py, px), 2 * std::numbers::pi);
-    const double moment = (belt.bending_stiffness * angle + belt.bending_damping * (turn_s - turn_p)) / belt.element_length;
+    const double moment =
+        (belt.bending_stiffness * angle + belt.bending_damping * (turn_s - turn_p)) / belt.element_length;
     // A couple M on a segment (dx, dy) is the force M (-dy, dx)/l^2 at its end and the opposite at its beginning; the
     // moment turns the segment before by +M and the one after by -M.
     fx[a] -= moment * -py / pp, fy[a] -= moment * px / pp;
@@ -234,8 +235,8 @@ TEST(ContactLaw, GivesThePulleyTheOppositeOfTheBeltsForceAndMoment) {
   Touch t;
   t.state.anchor[0] = 3e-6;
   t.press(1e-4, 0.3, 0.4, 2.0);
-  const double moment = (t.state.q.x[0] - t.model.pulley_x[0]) * t.work.fy[0] -
-                        (t.state.q.y[0] - t.model.pulley_y[0]) * t.work.fx[0];
+  const double moment =
+      (t.state.q.x[0] - t.model.pulley_x[0]) * t.work.fy[0] - (t.state.q.y[0] - t.model.pulley_y[0]) * t.work.fx[0];
   EXPECT_EQ(t.work.hub_x[0], -t.work.fx[0]);
   EXPECT_EQ(t.work.hub_y[0], -t.work.fy[0]);
   EXPECT_NEAR(t.work.torque[0], -moment, 1e-14 * t.work.normal[0]);  // products in another order

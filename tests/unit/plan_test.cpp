@@ -15,9 +15,7 @@ constexpr double rounding = 1e-12;  // times and speeds are sums of a few decima
 
 SceneSpec baseline() { return read_scene(BELTLIFE_SCENES "/baseline.toml").scene; }
 
-TEST(WholeProfile, OfTheBaselineLastsTwentySeconds) {
-  EXPECT_NEAR(plan_profile(baseline()).end_s, 20.0, rounding);
-}
+TEST(WholeProfile, OfTheBaselineLastsTwentySeconds) { EXPECT_NEAR(plan_profile(baseline()).end_s, 20.0, rounding); }
 
 TEST(WholeProfile, EvaluatesTheLastSecondOfEveryHold) {
   const SceneSpec scene = baseline();
