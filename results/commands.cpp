@@ -82,16 +82,25 @@ std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& pla
 
 std::vector<RangeLoad> loads_of(const Loaded& l, const std::vector<RunRecord>& records) {
   std::vector<RangeLoad> loads;
+  if (l.file.scene.range.empty()) return loads;
   for (const RunRecord& run : records)
     for (const WindowRecord& window : run.windows)
-      if (window.complete && window.crank_rpm > 0)
-        loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
+      if (window.complete) loads.push_back(range_load(l.file.scene, l.model.statics.unstretched_length, run, window));
   return loads;
 }
 
-std::optional<Life> life_of(const Loaded& l, const std::vector<RangeLoad>& loads) {
-  if (loads.empty()) return std::nullopt;
-  return duty_cycle_life(loads, l.file.scene.fatigue);
+// A duty cycle of which a range failed has no life: that of the rest would look like an answer.
+Life life_of(const Loaded& l, const std::vector<RangeLoad>& loads, const std::vector<RunRecord>& records) {
+  Life life = duty_cycle_life(loads, l.file.scene.fatigue);
+  std::string failed;
+  for (const RunRecord& run : records)
+    for (const WindowRecord& window : run.windows)
+      if (!window.complete) failed += (failed.empty() ? "" : ", ") + window.range;
+  if (!failed.empty()) {
+    life.error = "no life over the duty cycle without its range(s) " + failed;
+    life.life_h = life.log10_life_h = std::nan("");
+  }
+  return life;
 }
 
 void write_file(const Loaded& l, const std::vector<RunRecord>& records, const Life* life, const CommandOptions& o) {
@@ -267,6 +276,11 @@ int run_simulate(const CommandOptions& o) {
   const bool whole = !o.each_range && o.ranges.empty() && !l.file.scene.range.empty();
   const auto plans =
       whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
+  if (whole && l.measured && l.measured->speed_rpm.front() > 1)
+    throw BadInput({Problem{
+        *l.file.scene.driver->speed_csv, 0, "driver.speed_csv",
+        fmt::format("starts at {:g} r/min, but the drive starts from rest", l.measured->speed_rpm.front()),
+        "a measurement that starts from rest, or single ranges (--range, --each-range), which ramp up to it"}});
   auto outcomes = run_all(l, plans, o);
   std::vector<KernelTime> times;
   for (const RunOutcome& outcome : outcomes) {
@@ -278,8 +292,9 @@ int run_simulate(const CommandOptions& o) {
     }
   }
   const auto records = records_of(std::move(outcomes));
-  const auto life = life_of(l, loads_of(l, records));
-  write_file(l, records, life ? &*life : nullptr, o);
+  const auto loads = loads_of(l, records);
+  const Life life = loads.empty() ? Life{} : life_of(l, loads, records);
+  write_file(l, records, loads.empty() ? nullptr : &life, o);
   const bool failed = report_failures(records, plans);
 
   double wall = 0, simulated = 0, residual = 0;
@@ -341,7 +356,7 @@ int run_life(const CommandOptions& o) {
     const auto& plans = plans_of_drive[i];
     const auto records = records_of(run_all(l, plans, o));
     const auto loads = loads_of(l, records);
-    const Life life = duty_cycle_life(loads, l.file.scene.fatigue);  // without loads it says why there is no life
+    const Life life = life_of(l, loads, records);
     write_file(l, records, loads.empty() ? nullptr : &life, o);
     const bool bad = report_failures(records, plans) || life.error;
     failed = failed || bad;

@@ -92,7 +92,7 @@ void write_attribute(hid_t file, const std::string& path, std::string_view name,
   const Handle attribute(H5Acreate_by_name(file, path.c_str(), std::string(name).c_str(), file_type, space, H5P_DEFAULT,
                                            H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose, doing);
-  check(H5Awrite(attribute, memory_type, value), doing);
+  if (value != nullptr) check(H5Awrite(attribute, memory_type, value), doing);  // a list may be empty
 }
 
 void write_dataset(hid_t file, const std::string& path, hid_t file_type, hid_t memory_type, const void* values,

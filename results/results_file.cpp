@@ -293,12 +293,8 @@ void check_writable(const fs::path& path) {
 void write_results(const fs::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs,
                    const Life* life) {
   refuse_obvious(path);
-  std::vector<char> bytes;
-  try {
-    bytes = image_of(provenance, runs, life);
-  } catch (const Hdf5Error& error) {
-    refuse(path, std::string("the HDF5 library failed while ") + error.what(), "");
-  }
+  // A failure of the library in memory is a bug of ours, not of the path: it passes through.
+  const std::vector<char> bytes = image_of(provenance, runs, life);
   TemporaryFile temporary(path);
   write_bytes(path, temporary.path(), bytes);
   std::error_code error;

@@ -41,7 +41,8 @@ bool crosses_itself(const Route& route) {
 int orientation_of(const SceneSpec& scene) {
   for (int orientation : {1, -1}) {
     Route route;
-    if (make_route(circles_of(scene, orientation, 0), route) && route.simple && !crosses_itself(route)) return orientation;
+    if (make_route(circles_of(scene, orientation, 0), route) && route.simple && !crosses_itself(route))
+      return orientation;
   }
   double area = 0;
   for (std::size_t i = 0; i < scene.pulley.size(); ++i) {
@@ -284,6 +285,11 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
   s.placed_strain_tension = tension_of(s.placed.route.length);
   s.balance = layout_at(scene, s.orientation, angle);
   s.balance.tension = tension_of(s.balance.route.length);
+  if (s.balance.tension < -1e-6 * ea)
+    refuse(file, "belt.unstretched_length_mm",
+           fmt::format("the belt is slack: even where the arm's spring runs out it is {:.1f} mm longer than its path",
+                       1e3 * (s.unstretched_length - s.balance.route.length)),
+           fmt::format("less than {:.1f} mm for this tensioner", 1e3 * s.balance.route.length));
   refuse_infeasible(scene, s.balance.route, true, file, " where the tensioner comes to rest");
   refuse_overstretched(s, file);
   return s;

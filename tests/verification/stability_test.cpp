@@ -91,10 +91,11 @@ struct Overstep {
   RunPlan plan;
   double step;
 
-  Overstep() {
+  explicit Overstep(const std::vector<std::string>& further = {}) {
     // At 512 elements the belt is what limits the step: 1.6 of its limits are still half of the turbine shaft's.
-    const std::vector<std::string> settings{"profile.settle_s=0.005", "profile.ramp_s=0.05", "profile.hold_s=0.05",
-                                            "profile.evaluate_s=0.05"};
+    std::vector<std::string> settings{"profile.settle_s=0.005", "profile.ramp_s=0.05", "profile.hold_s=0.05",
+                                      "profile.evaluate_s=0.05"};
+    settings.insert(settings.end(), further.begin(), further.end());
     SceneSpec scene = read_scene(BELTLIFE_SCENES "/baseline.toml", settings).scene;
     const double limit = step_limits(compile(scene), scene.solver.scheme).front().limit_s;
     scene.solver.step_s = 1.6 * limit;
@@ -116,25 +117,19 @@ TEST(Divergence, OfTheBaselineAtSixTenthsPastTheLimitIsReportedWithTimePlaceCaus
 }
 
 TEST(Divergence, KeepsWhatWasRecordedAndMarksItIncomplete) {
-  // A pulley whose load tears the belt while the window is open, at a step that is stable.
-  SceneSpec scene = read_scene(BELTLIFE_SCENES "/two_pulley.toml",
-                               {"belt.elements=132", "profile.settle_s=0.01", "profile.ramp_s=0.01",
-                                "profile.hold_s=0.2", "profile.evaluate_s=0.2", "contact.anchor_share=1"})
-                        .scene;
-  scene.belt.axial_stiffness_n = 3000;  // at rest it stretches by 2 %, under load by half before the hold ends
-  scene.belt.pretension_n = 60;
-  scene.torque[0].torques_n_m = {-4, -4000, -4000};
-  scene.belt.friction_front = 10;
-  const RunPlan plan = plan_range(scene, scene.range[1]);
-  const RunRecord record = run(compile(scene), plan).record;
+  // Sampled so often, with its window open from the start, that it has recorded something when it blows up.
+  Overstep o({"solver.sample_rate_hz=1e5"});
+  o.plan.windows[0].begin_s = 0;
+  const RunRecord record = run(o.model, o.plan).record;
   ASSERT_EQ(record.status.state, RunState::diverged);
   ASSERT_EQ(record.windows.size(), 1u);
   EXPECT_FALSE(record.windows[0].complete);
-  EXPECT_GT(record.trace.time_s.size(), 0u);
+  EXPECT_GT(record.windows[0].last_sample, record.windows[0].first_sample);
+  EXPECT_EQ(record.windows[0].last_sample, record.trace.time_s.size());
   for (const Channel& c : record.trace.channels) EXPECT_EQ(c.values.size(), record.trace.time_s.size()) << c.name;
+  ASSERT_FALSE(record.trace.time_s.empty());
   EXPECT_LE(record.trace.time_s.back(), record.status.time_s);
   EXPECT_EQ(record.simulated_s, record.status.time_s);
-  EXPECT_NE(record.status.cause.find("loads"), std::string::npos) << record.status.cause;
 }
 
 TEST(Divergence, IsReportedWithinAMillisecondOfTheFirstElementAtHalfStrain) {
