@@ -61,6 +61,19 @@ struct Link {
   std::string name;
 };
 
+void spread(Model& m, const std::vector<Link>& links) {
+  for (int pass = 0; pass < m.bodies; ++pass)
+    for (const auto& l : links) {
+      if (m.sense[l.from] != 0 && m.sense[l.to] == 0) {
+        m.sense[l.to] = l.sense * m.sense[l.from];
+        m.speed_ratio[l.to] = m.speed_ratio[l.from] * l.ratio;
+      } else if (m.sense[l.from] == 0 && m.sense[l.to] != 0) {
+        m.sense[l.from] = l.sense * m.sense[l.to];
+        m.speed_ratio[l.from] = m.speed_ratio[l.to] / l.ratio;
+      }
+    }
+}
+
 void compile_bodies(Model& m, std::string_view file) {
   for (const auto& b : m.scene.body) {
     m.body_name.push_back(b.name);
@@ -74,23 +87,16 @@ void compile_bodies(Model& m, std::string_view file) {
   for (const auto& g : m.scene.gear_pair)
     links.push_back({body_index(m, g.pinion), body_index(m, g.gear), double(g.pinion_teeth) / g.gear_teeth, -1,
                      "gear pair " + g.name});
-  // Senses and speed ratios spread from the pulleys over the links; what no link reaches turns as the drive does.
+  // Senses and speed ratios spread from the pulleys over the links; a train that no pulley reaches turns as the drive
+  // does at its first body.
   m.sense.resize(m.bodies, 0);
   m.speed_ratio.resize(m.bodies, 0);
-  for (int pass = 0; pass < m.bodies; ++pass)
-    for (const auto& l : links) {
-      if (m.sense[l.from] != 0 && m.sense[l.to] == 0) {
-        m.sense[l.to] = l.sense * m.sense[l.from];
-        m.speed_ratio[l.to] = m.speed_ratio[l.from] * l.ratio;
-      } else if (m.sense[l.from] == 0 && m.sense[l.to] != 0) {
-        m.sense[l.from] = l.sense * m.sense[l.to];
-        m.speed_ratio[l.from] = m.speed_ratio[l.to] / l.ratio;
-      }
-    }
+  spread(m, links);
   for (int b = 0; b < m.bodies; ++b)
     if (m.sense[b] == 0) {
       m.sense[b] = m.scene.rotation == Rotation::counterclockwise ? 1 : -1;
       m.speed_ratio[b] = 1;
+      spread(m, links);
     }
   for (const auto& l : links)
     if (m.sense[l.to] != l.sense * m.sense[l.from])

@@ -7,12 +7,6 @@
 namespace beltlife {
 namespace {
 
-double gear_spring_force(const GearPair& g, double delta) {
-  if (delta > g.half_backlash) return g.stiffness * (delta - g.half_backlash);
-  if (delta < -g.half_backlash) return g.stiffness * (delta + g.half_backlash);
-  return 0;
-}
-
 double driver_power(const Simulator& s) {
   const Model& m = s.model();
   const int d = m.driver.body;
@@ -50,7 +44,8 @@ void contact_powers(const Simulator& s, EnergyAccount& p) {
       const double d = m.pulley_radius[segment.pulley] - r;
       if (d <= 0) continue;
       const double approach = -((q.vx[i] - c.vx) * dx + (q.vy[i] - c.vy) * dy) / r;
-      normal += (w.normal[i] - m.contact.stiffness * d) * approach;
+      // The law at this state, not the force of the last evaluation: the two lie up to a step apart.
+      normal += (normal_force(m.contact, d, approach) - m.contact.stiffness * d) * approach;
       friction -= w.tangential[i] * w.slip[i];
     }
   }
@@ -69,11 +64,10 @@ void train_powers(const Simulator& s, EnergyAccount& p) {
     const double twist_rate = q.speed[k.from] - q.speed[k.to];
     p[Energy::lost_shafts] += k.damping * twist_rate * twist_rate;
   }
-  for (std::size_t i = 0; i < m.gears.size(); ++i) {
-    const GearPair& g = m.gears[i];
+  for (const GearPair& g : m.gears) {
     const double delta = g.pinion_radius * q.angle[g.pinion] - g.gear_radius * q.angle[g.gear];
     const double rate = g.pinion_radius * q.speed[g.pinion] - g.gear_radius * q.speed[g.gear];
-    p[Energy::lost_gears] += (s.work().gear_force[i] - gear_spring_force(g, delta)) * rate;
+    p[Energy::lost_gears] += (gear_force(g, delta, rate) - gear_spring_force(g, delta)) * rate;
   }
   if (m.tensioner.pulley >= 0) {
     p[Energy::lost_tensioner_damping] = m.tensioner.damping * q.arm_rate * q.arm_rate;

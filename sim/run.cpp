@@ -34,11 +34,14 @@ std::string place_of(const Simulator& s, int element) {
 
 void explain(const Simulator& s, RunStatus& status) {
   const auto limits = step_limits(s.model(), s.model().scene.solver.scheme);
-  const StepLimit& shortest = limits.front();
-  if (s.step() > shortest.limit_s) {
-    status.cause = fmt::format("step {:.3g} s is longer than the {:.3g} s that {} allows", s.step(), shortest.limit_s,
-                               shortest.name);
-    status.advice = fmt::format("leave solver.step_s out, or set it to {:.2g}", 0.9 * shortest.limit_s);
+  std::string exceeded;
+  for (const StepLimit& limit : limits)
+    if (s.step() > limit.limit_s)
+      exceeded += fmt::format("{}{} ({:.3g} s)", exceeded.empty() ? "" : ", ", limit.name, limit.limit_s);
+  if (!exceeded.empty()) {
+    status.cause = fmt::format("step {:.3g} s is longer than the limit of {}", s.step(), exceeded);
+    status.advice = fmt::format("leave solver.step_s out, or set it to {:.2g}",
+                                stable_step(s.model(), s.model().scene.solver.scheme));
   } else {
     status.cause = "loads, speed or slack beyond what this belt and tensioner can follow";
     status.advice = fmt::format(

@@ -54,6 +54,15 @@ BELTLIFE_VECTOR void damping_moments(int n, const double* __restrict turn_rate, 
   for (int i = -1; i <= n; ++i) moment[i] = c * (turn_rate[i] - turn_rate[i - 1]);
 }
 
+// M = EI a/l0 + CI (da/dt)/l0 with the angle a between elements i-1 and i; at rest the belt is straight.
+BELTLIFE_VECTOR void moments(int n, const double* __restrict ux, const double* __restrict uy,
+                             const double* __restrict turn_rate, double* __restrict moment, double k, double c) {
+  for (int i = -1; i <= n; ++i) {
+    const double cross = ux[i - 1] * uy[i] - uy[i - 1] * ux[i], dot = ux[i - 1] * ux[i] + uy[i - 1] * uy[i];
+    moment[i] = k * turn_angle(cross, dot) + c * (turn_rate[i] - turn_rate[i - 1]);
+  }
+}
+
 // Equal and opposite couples M on the elements beside a node: each is a pair of forces M/l across the element, so
 // element i carries the shear (M(i+1) - M(i))/l.
 BELTLIFE_VECTOR void shear(int n, const double* __restrict moment, const double* __restrict inverse_length,
@@ -113,17 +122,11 @@ void belt_bending_damping(Evaluation& e) {
   apply_shear(e);
 }
 
-// M = EI a/l0 + CI (da/dt)/l0 with the angle a between neighbouring elements; at rest the belt is straight.
 void belt_bending(Evaluation& e) {
   const BeltModel& b = e.model.belt;
   Work& w = e.work;
-  damping_moments(b.nodes, w.turn_rate.data(), w.moment.data(), b.bending_damping / b.element_length);
-  const double stiffness = b.bending_stiffness / b.element_length;
-  for (int i = -1; i <= b.nodes; ++i) {
-    const double cross = w.ux[i - 1] * w.uy[i] - w.uy[i - 1] * w.ux[i];
-    const double dot = w.ux[i - 1] * w.ux[i] + w.uy[i - 1] * w.uy[i];
-    w.moment[i] += stiffness * std::atan2(cross, dot);
-  }
+  moments(b.nodes, w.ux.data(), w.uy.data(), w.turn_rate.data(), w.moment.data(),
+          b.bending_stiffness / b.element_length, b.bending_damping / b.element_length);
   apply_shear(e);
 }
 

@@ -21,6 +21,19 @@ void torsional_springs(Evaluation& e) {
   }
 }
 
+double gear_spring_force(const GearPair& g, double delta) {
+  if (delta > g.half_backlash) return g.stiffness * (delta - g.half_backlash);
+  if (delta < -g.half_backlash) return g.stiffness * (delta + g.half_backlash);
+  return 0;
+}
+
+double gear_force(const GearPair& g, double delta, double rate) {
+  const double elastic = gear_spring_force(g, delta);
+  if (elastic > 0) return std::max(elastic + g.damping * rate, 0.0);
+  if (elastic < 0) return std::min(elastic + g.damping * rate, 0.0);
+  return 0;
+}
+
 // Teeth touch on one flank past half the backlash, on the other past minus half; between they are free. The force
 // k (delta -+ b/2) + c delta' never pulls.
 void gear_mesh(Evaluation& e) {
@@ -29,11 +42,7 @@ void gear_mesh(Evaluation& e) {
     const GearPair& g = gears[i];
     const double delta = g.pinion_radius * e.q.angle[g.pinion] - g.gear_radius * e.q.angle[g.gear];
     const double rate = g.pinion_radius * e.q.speed[g.pinion] - g.gear_radius * e.q.speed[g.gear];
-    double f = 0;
-    if (delta > g.half_backlash)
-      f = std::max(g.stiffness * (delta - g.half_backlash) + g.damping * rate, 0.0);
-    else if (delta < -g.half_backlash)
-      f = std::min(g.stiffness * (delta + g.half_backlash) + g.damping * rate, 0.0);
+    const double f = gear_force(g, delta, rate);
     e.work.gear_force[i] = f;
     e.work.torque[g.pinion] -= g.pinion_radius * f;
     e.work.torque[g.gear] += g.gear_radius * f;

@@ -17,7 +17,7 @@ namespace {
 struct SegmentConstants {
   Centre centre;
   double radius, speed;
-  double stiffness, damping, separation_damping;
+  ContactModel law;
   double anchor_limit;    // beta mu
   double velocity_limit;  // (1 - beta) mu
   double friction_stiffness, inverse_friction_stiffness, inverse_friction_speed;
@@ -38,9 +38,7 @@ template <bool Commit>
     const double d = c.radius - r;
     const double approach = -(rvx * nx + rvy * ny);
     const double vt = rvy * nx - rvx * ny - c.speed * r;
-    const double rate = approach >= 0 ? c.damping * approach : c.separation_damping * approach;
-    const double pressed = std::max(c.stiffness * d + rate, 0.0);
-    const double fn = d > 0 ? pressed : 0.0;
+    const double fn = normal_force(c.law, d, approach);
     const double limit = c.anchor_limit * fn;
     const double spring = c.friction_stiffness * (anchor[i] + c.old_weight * slip[i] + c.new_weight * vt);
     const double fs = std::max(std::min(spring, limit), -limit);
@@ -107,9 +105,7 @@ void contact(Evaluation& e) {
     const SegmentConstants c{pulley_centre(e.model, q, s.pulley),
                              e.model.pulley_radius[s.pulley],
                              q.speed[s.pulley],
-                             contact.stiffness,
-                             contact.damping,
-                             contact.separation_damping,
+                             contact,
                              contact.anchor_share * mu,
                              (1 - contact.anchor_share) * mu,
                              contact.friction_stiffness,

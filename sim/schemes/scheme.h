@@ -77,9 +77,9 @@ struct StepLimit {
 std::vector<StepLimit> step_limits(const Model& model, Scheme scheme);
 double stable_step(const Model& model, Scheme scheme);
 
-/// Longest stable step of one mode x'' + damping x' + omega^2 x = 0 (damping 1/s, omega^2 1/s^2). A mode may grow by
-/// 1/s at most: the trapezoidal scheme amplifies undamped waves by h^3 omega^4 / 8.
-double mode_limit(Scheme scheme, double omega2, double damping);
+/// Longest stable step of one mode x'' + damping x' + omega^2 x = 0 (damping 1/s, omega^2 1/s^2); the same for both
+/// explicit schemes.
+double mode_limit(double omega2, double damping);
 
 /// Rate (1/s) that the axial damping puts on the shortest wave, 4 CA / (l0 m), and that a normal force adds through
 /// the slope of the velocity friction, mu F_n (1 - beta) / (v_s m): an explicit step h damps rightly only while

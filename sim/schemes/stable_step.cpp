@@ -1,7 +1,6 @@
 // Predicted stable step of the explicit schemes, mode by mode: see scheme.h.
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "sim/schemes/scheme.h"
@@ -10,18 +9,6 @@ namespace beltlife {
 namespace {
 
 constexpr double margin = 0.9;  // of the shortest limit: the modes couple on curved belt
-
-// Largest modulus of the trapezoidal scheme's one-step amplification of x'' + c x' + w2 x = 0.
-double amplification(double w2, double c, double h) {
-  using C = std::complex<double>;
-  const C root = std::sqrt(C(c * c - 4 * w2));
-  double most = 0;
-  for (const C& s : {(-c + root) / 2.0, (-c - root) / 2.0}) {
-    const C z = s * h;
-    most = std::max(most, std::abs(1.0 + z + z * z / 2.0));
-  }
-  return most;
-}
 
 // Tension (N) that the drive is expected to see: static, plus what the torque tables put through the belt, plus
 // centrifugal, at the fastest range.
@@ -48,25 +35,16 @@ double expected_normal_force(const Model& m, int pulley) {
   return peak * expected_tension(m) * m.belt.element_length / m.pulley_radius[pulley];
 }
 
-void add_pair(std::vector<StepLimit>& out, Scheme scheme, const std::string& name, double k, double c,
-              double mobility) {
-  out.push_back({name, "mode (k, c) x (1/J1 + 1/J2)", mode_limit(scheme, k * mobility, c * mobility)});
+void add_pair(std::vector<StepLimit>& out, const std::string& name, double k, double c, double mobility) {
+  out.push_back({name, "mode (k, c) x (1/J1 + 1/J2)", mode_limit(k * mobility, c * mobility)});
 }
 
 }  // namespace
 
-double mode_limit(Scheme scheme, double w2, double c) {
-  // Semi-implicit Euler: z^2 - (2 - h c - h^2 w2) z + (1 - h c) = 0 has both roots in the unit circle while
-  // 2 h c + h^2 w2 <= 4.
-  if (scheme == Scheme::symplectic_euler) return 4 / (c + std::sqrt(c * c + 4 * w2));
-  const auto stable = [&](double h) { return amplification(w2, c, h) <= 1 + h; };
-  double low = 1e-10, high = 1.0;
-  while (high / low > 1 + 1e-9) {
-    const double mid = std::sqrt(low * high);
-    (stable(mid) ? low : high) = mid;
-  }
-  return low;
-}
+// With d = h c and z = h w: the semi-implicit scheme's z^2 - (2 - d - z^2) z + (1 - d) = 0 has both roots in the unit
+// circle while z^2 + 2 d <= 4. The trapezoidal predictor-corrector, which puts corrected velocities into the positions,
+// has determinant D = 1 - z^2/2 - d B/2 + z^2 B/4 and 1 + D - trace = z^2 B/2 with B = 2 - z^2/2 - d: the same limit.
+double mode_limit(double w2, double c) { return 4 / (c + std::sqrt(c * c + 4 * w2)); }
 
 double axial_damping_rate(const Model& m) {
   return 4 * m.belt.axial_damping / (m.belt.element_length * m.belt.node_mass);
@@ -76,7 +54,7 @@ double friction_damping_rate(const Model& m, double friction, double normal_forc
   return friction * normal_force * (1 - m.contact.anchor_share) / (m.contact.friction_speed * m.belt.node_mass);
 }
 
-std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {
+std::vector<StepLimit> step_limits(const Model& m, Scheme) {
   std::vector<StepLimit> out;
   const BeltModel& b = m.belt;
   const double mass = b.node_mass, l = b.element_length;
@@ -85,40 +63,39 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {
     slope = std::max(slope, friction_damping_rate(m, m.pulley_friction[p], expected_normal_force(m, p)));
   out.push_back({"axial belt wave, damping and friction slope",
                  "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m) + mu Fn (1-beta)/(vs m)",
-                 mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m) + slope)});
+                 mode_limit(4 * b.axial_stiffness / (l * mass), axial_damping_rate(m) + slope)});
   if (slope == 0 || b.axial_damping == 0)
     out.push_back({"axial belt wave", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m)",
-                   mode_limit(scheme, 4 * b.axial_stiffness / (l * mass), axial_damping_rate(m))});
+                   mode_limit(4 * b.axial_stiffness / (l * mass), axial_damping_rate(m))});
   if (b.bending_damping > 0 || b.bending_stiffness > 0)
-    out.push_back({"bending", "w^2 = 16 EI/(l0^3 m), c = 16 CI/(l0^3 m)",
-                   mode_limit(scheme, 16 * b.bending_stiffness / (l * l * l * mass),
-                              16 * b.bending_damping / (l * l * l * mass))});
+    out.push_back(
+        {"bending", "w^2 = 16 EI/(l0^3 m), c = 16 CI/(l0^3 m)",
+         mode_limit(16 * b.bending_stiffness / (l * l * l * mass), 16 * b.bending_damping / (l * l * l * mass))});
   if (m.pulleys > 0) {
     out.push_back({"contact penalty", "w^2 = A kp/m, c = A cp/m",
-                   mode_limit(scheme, m.contact.stiffness / mass, m.contact.damping / mass)});
-    // Along the surface the axial damping acts on a sticking node too, which keeps the scheme from amplifying it.
+                   mode_limit(m.contact.stiffness / mass, m.contact.damping / mass)});
+    // Along the surface the axial damping acts on a sticking node too.
     out.push_back({"friction anchor", "w^2 = A kt/m, c = 4 CA/(l0 m)",
-                   mode_limit(scheme, m.contact.friction_stiffness / mass, axial_damping_rate(m))});
+                   mode_limit(m.contact.friction_stiffness / mass, axial_damping_rate(m))});
   }
   for (std::size_t i = 0; i < m.springs.size(); ++i) {
     const auto& s = m.springs[i];
-    add_pair(out, scheme, "torsional spring " + m.scene.torsional_spring[i].name, s.stiffness, s.damping,
+    add_pair(out, "torsional spring " + m.scene.torsional_spring[i].name, s.stiffness, s.damping,
              m.inverse_inertia[s.from] + m.inverse_inertia[s.to]);
   }
   for (std::size_t i = 0; i < m.gears.size(); ++i) {
     const auto& g = m.gears[i];
-    add_pair(out, scheme, "gear pair " + m.scene.gear_pair[i].name, g.stiffness, g.damping,
+    add_pair(out, "gear pair " + m.scene.gear_pair[i].name, g.stiffness, g.damping,
              g.pinion_radius * g.pinion_radius * m.inverse_inertia[g.pinion] +
                  g.gear_radius * g.gear_radius * m.inverse_inertia[g.gear]);
   }
   if (m.tensioner.pulley >= 0 && !m.tensioner.locked)
     out.push_back({"tensioner arm", "w^2 = (rate + friction anchor)/J, c = damping/J",
-                   mode_limit(Scheme::symplectic_euler,
-                              (m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
+                   mode_limit((m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
                               m.tensioner.damping / m.tensioner.inertia)});
   if (m.driver.body >= 0 && !m.prescribed())
     out.push_back({"pid driver", "w^2 = angle gain/J, c = speed gain/J",
-                   mode_limit(scheme, m.driver.angle_gain * m.inverse_inertia[m.driver.body],
+                   mode_limit(m.driver.angle_gain * m.inverse_inertia[m.driver.body],
                               m.driver.speed_gain * m.inverse_inertia[m.driver.body])});
   std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& c) { return a.limit_s < c.limit_s; });
   return out;

@@ -255,4 +255,10 @@ TEST(VectorSum, EqualsALongDoubleSum) {
 }
 
 }  // namespace
+TEST(TurnAngle, EqualsTheArcTangentOverTheWholeCircle) {
+  // The series is cut where its next term is 4e-13 of the angle; rounding adds some 1e-15.
+  for (double a = -3.1; a <= 3.1; a += 0.01)
+    EXPECT_NEAR(turn_angle(std::sin(a), std::cos(a)), a, 1e-12 * std::abs(a) + 1e-15);
+}
+
 }  // namespace beltlife
