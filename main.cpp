@@ -120,6 +120,16 @@ int run(int argc, char** argv) {
       "  beltlife life sim/scenes/two_pulley.toml\n"
       "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
 
+  CLI::App* report = app.add_subcommand("report", "write one self-contained HTML page about a result file");
+  report->add_option("file", scene, "HDF5 result file, as --out of simulate or life wrote it")->required();
+  report->add_option("--out", o.out, "the page; by default beside the file, ending in .html")
+      ->type_name("FILE.html")
+      ->check(not_empty());
+  report->add_flag("--quiet", o.quiet, "do not say what was written");
+  report->footer(
+      "Example:\n"
+      "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two.h5 && beltlife report two.h5");
+
   bool reference = false;
   app.add_flag("--fields", reference, "print the reference of all scene fields as Markdown and exit");
   app.require_subcommand(0, 1);
@@ -133,13 +143,14 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *simulate) o.scenes = {scene};
+  if (*check || *simulate || *report) o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
   if (*check) return beltlife::run_check(o);
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
+  if (*report) return beltlife::run_report(o);
   std::cerr << app.help();
   return 1;
 }

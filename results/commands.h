@@ -26,5 +26,7 @@ struct CommandOptions {
 int run_check(const CommandOptions& options);
 int run_simulate(const CommandOptions& options);
 int run_life(const CommandOptions& options);
+/// Reads a result file (`scenes` holds its name) and writes a page beside it, or to --out.
+int run_report(const CommandOptions& options);
 
 }  // namespace beltlife

@@ -26,6 +26,7 @@ inline constexpr std::string_view passes = "/passes";  // below a range, like th
 inline constexpr std::string_view energy = "/energy";
 inline constexpr std::string_view element = "/element";
 inline constexpr std::string_view spectra = "/spectra";
+inline constexpr std::string_view loop = "/loop";
 
 // Attributes.
 inline constexpr std::string_view root_format = "format";
@@ -99,6 +100,10 @@ inline constexpr Dataset element_normal{"normal_n", "N", "normal force on the el
 inline constexpr Dataset element_tangential{"tangential_n", "N", "friction force on the element"};
 inline constexpr Dataset element_tension{"tension_n", "N", "belt tension in the element"};
 inline constexpr Dataset element_pulley{"pulley", "", "pulley in contact, by position in `pulleys`; -1 on a span"};
+
+inline constexpr Dataset loop_x{"x_m", "m", "position of each belt node"};
+inline constexpr Dataset loop_y{"y_m", "m", "position of each belt node"};
+inline constexpr Dataset loop_tension{"tension_n", "N", "tension of the element that begins at the node"};
 
 inline constexpr Dataset frequency{"frequency_hz", "Hz", "frequency of each bin of the amplitude spectra beside it"};
 

@@ -182,6 +182,13 @@ void put_element(Hdf5Image& file, const std::string& at, const ElementHistory& e
                names::element_pulley.about);
 }
 
+void put_loop(Hdf5Image& file, const std::string& at, const LoopSnapshot& loop) {
+  file.group(at, "the whole belt at the end of the window, node by node in the scene's pulley order");
+  put(file, at, names::loop_x, loop.x_m);
+  put(file, at, names::loop_y, loop.y_m);
+  put(file, at, names::loop_tension, loop.tension_n);
+}
+
 /// Amplitude spectra of every channel over the window; nothing where the run ended before the window did.
 void put_spectra(Hdf5Image& file, const std::string& at, const Trace& trace, const WindowRecord& window) {
   const std::size_t first = window.first_sample, last = std::min(window.last_sample, trace.time_s.size());
@@ -225,6 +232,7 @@ void put_window(Hdf5Image& file, const std::string& at, std::size_t run_number, 
     put_passes(file, join(passes, unique.take(pulleys[i])), window.passes[i]);
   put_energy(file, at + std::string(names::energy), window.energy);
   put_element(file, at + std::string(names::element), window.element);
+  put_loop(file, at + std::string(names::loop), window.loop);
   put_spectra(file, at + std::string(names::spectra), run.trace, window);
 }
 

@@ -88,6 +88,12 @@ struct ElementHistory {
   std::vector<int> pulley;  ///< index of the pulley in contact, -1 on a span
 };
 
+/// The whole belt at one instant, node by node in the scene's pulley order.
+struct LoopSnapshot {
+  std::vector<double> x_m, y_m;
+  std::vector<double> tension_n;  ///< of the element that begins at the node
+};
+
 /// What one evaluated window (the last second of a range) recorded.
 struct WindowRecord {
   std::string range;
@@ -101,6 +107,7 @@ struct WindowRecord {
   std::vector<PassForces> passes;  ///< one per pulley, scene order
   EnergyAccount energy;
   ElementHistory element;
+  LoopSnapshot loop;  ///< at the end of the window
 };
 
 /// Everything a run leaves behind.

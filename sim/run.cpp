@@ -146,6 +146,10 @@ class Recorder {
     w.last_sample = record_.trace.time_s.size();
     w.passes = trackers_[next_]->take();
     w.complete = complete;
+    const Coordinates& q = s.state().q;
+    w.loop.x_m.assign(q.x.data(), q.x.data() + q.x.size());
+    w.loop.y_m.assign(q.y.data(), q.y.data() + q.y.size());
+    w.loop.tension_n.assign(s.work().tension.data(), s.work().tension.data() + q.x.size());
     open_ = false;
     ++next_;
   }

@@ -1,0 +1,115 @@
+// Reading from an HDF5 file: see hdf5_source.h.
+#include "results/hdf5_source.h"
+
+#include <hdf5.h>
+
+#include <filesystem>
+
+#include "sim/scene/scene_io.h"
+
+namespace beltlife {
+
+struct Hdf5Source::File {
+  std::string name;
+  hid_t id = -1;
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw BadInput({Problem{name, 0, "", what, "a result file that beltlife wrote with --out"}});
+  }
+};
+
+namespace {
+
+/// Closes an identifier at the end of a scope.
+struct Closer {
+  hid_t id;
+  herr_t (*close)(hid_t);
+  ~Closer() {
+    if (id >= 0) close(id);
+  }
+};
+
+}  // namespace
+
+Hdf5Source::Hdf5Source(const std::string& name) : file_(std::make_unique<File>()) {
+  file_->name = name;
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  if (!std::filesystem::is_regular_file(name)) file_->refuse("no such file");
+  file_->id = H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_->id < 0) file_->refuse("is not a whole HDF5 file");
+}
+
+Hdf5Source::~Hdf5Source() {
+  if (file_->id >= 0) H5Fclose(file_->id);
+}
+
+std::vector<std::string> Hdf5Source::children(const std::string& path) const {
+  std::vector<std::string> names;
+  const Closer group{H5Gopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Gclose};
+  if (group.id < 0) return names;
+  const auto take = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->push_back(name);
+    return 0;
+  };
+  hsize_t at = 0;
+  if (H5Literate(group.id, H5_INDEX_CRT_ORDER, H5_ITER_INC, &at, take, &names) < 0) {
+    names.clear();
+    at = 0;
+    H5Literate(group.id, H5_INDEX_NAME, H5_ITER_INC, &at, take, &names);
+  }
+  return names;
+}
+
+std::vector<double> Hdf5Source::numbers(const std::string& path) const {
+  const Closer set{H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose};
+  if (set.id < 0) file_->refuse("has no " + path);
+  const Closer space{H5Dget_space(set.id), H5Sclose};
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id)));
+  if (!values.empty() && H5Dread(set.id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    file_->refuse(path + " cannot be read as numbers");
+  return values;
+}
+
+double Hdf5Source::number(const std::string& path) const {
+  const auto values = numbers(path);
+  if (values.size() != 1) file_->refuse(path + " is not a single number");
+  return values[0];
+}
+
+std::vector<int> Hdf5Source::integers(const std::string& path) const {
+  std::vector<int> out;
+  for (double value : numbers(path)) out.push_back(static_cast<int>(value));
+  return out;
+}
+
+double Hdf5Source::number(const std::string& path, std::string_view attribute) const {
+  const Closer a{H5Aopen_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose};
+  double value = 0;
+  if (a.id < 0 || H5Aread(a.id, H5T_NATIVE_DOUBLE, &value) < 0)
+    file_->refuse(path + " has no number \"" + std::string(attribute) + "\"");
+  return value;
+}
+
+std::int64_t Hdf5Source::integer(const std::string& path, std::string_view attribute) const {
+  const Closer a{H5Aopen_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose};
+  std::int64_t value = 0;
+  if (a.id < 0 || H5Aread(a.id, H5T_NATIVE_INT64, &value) < 0)
+    file_->refuse(path + " has no whole number \"" + std::string(attribute) + "\"");
+  return value;
+}
+
+std::string Hdf5Source::text(const std::string& path, std::string_view attribute) const {
+  const Closer a{H5Aopen_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose};
+  const Closer type{a.id >= 0 ? H5Aget_type(a.id) : -1, H5Tclose};
+  char* value = nullptr;
+  if (a.id < 0 || H5Tis_variable_str(type.id) <= 0 || H5Aread(a.id, type.id, &value) < 0 || !value)
+    file_->refuse(path + " has no text \"" + std::string(attribute) + "\"");
+  std::string out = value;
+  H5free_memory(value);
+  return out;
+}
+
+}  // namespace beltlife

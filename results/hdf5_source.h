@@ -1,0 +1,34 @@
+// Owns reading from an HDF5 file, without showing the HDF5 API to anybody.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beltlife {
+
+/// An HDF5 file open for reading. Paths are absolute. Everything throws BadInput naming the file and what it lacks.
+class Hdf5Source {
+ public:
+  explicit Hdf5Source(const std::string& file);
+  ~Hdf5Source();
+  Hdf5Source(const Hdf5Source&) = delete;
+  Hdf5Source& operator=(const Hdf5Source&) = delete;
+
+  /// Names directly below a group, in the order in which they were written; none if there is no such group.
+  std::vector<std::string> children(const std::string& path) const;
+  std::vector<double> numbers(const std::string& path) const;
+  double number(const std::string& path) const;
+  std::vector<int> integers(const std::string& path) const;
+  double number(const std::string& path, std::string_view attribute) const;
+  std::int64_t integer(const std::string& path, std::string_view attribute) const;
+  std::string text(const std::string& path, std::string_view attribute) const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+}  // namespace beltlife

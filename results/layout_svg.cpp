@@ -1,0 +1,102 @@
+// Drawing of a drive to scale: see layout_svg.h.
+#include "results/layout_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beltlife {
+namespace {
+
+/// From slack (blue) to tight (red).
+std::string colour(double value, double low, double high) {
+  const double s = high > low ? std::clamp((value - low) / (high - low), 0.0, 1.0) : 0.5;
+  const auto mix = [s](double slack, double tight) { return static_cast<int>(slack + (tight - slack) * s); };
+  return fmt::format("rgb({},{},{})", mix(20, 220), mix(90, 30), mix(210, 40));
+}
+
+struct Box {
+  double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
+  void take(const Circle& c) {
+    left = std::min(left, c.x - c.radius);
+    right = std::max(right, c.x + c.radius);
+    bottom = std::min(bottom, c.y - c.radius);
+    top = std::max(top, c.y + c.radius);
+  }
+};
+
+}  // namespace
+
+std::string layout_svg(const Model& m, double arm_angle, const std::vector<double>& tension, const std::string& id) {
+  const auto circles = circles_of(m.scene, m.statics.orientation, arm_angle);
+  Route route;
+  if (!make_route(circles, route)) return "";
+  Box box;
+  for (const Circle& c : circles) box.take(c);
+  const double margin = 0.09 * std::max(box.right - box.left, box.top - box.bottom);
+  const double scale =
+      560 / std::max(box.right - box.left + 2 * margin, box.top - box.bottom + 2 * margin);  // px per m
+  const auto x = [&](double v) { return (v - box.left + margin) * scale; };
+  const auto y = [&](double v) { return (box.top + margin - v) * scale; };
+  const double width = x(box.right + margin), height = y(box.bottom - margin) + 40;
+
+  std::string s = fmt::format(
+      "<figure id=\"{0}\">\n<svg id=\"{0}_svg\" viewBox=\"0 0 {1:.0f} {2:.0f}\" width=\"{1:.0f}\" role=\"img\" "
+      "aria-label=\"layout to "
+      "scale, spans coloured by tension\" font-family=\"Helvetica, sans-serif\" font-size=\"12\">\n",
+      id, width, height);
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    const Circle& c = circles[i];
+    const bool front = m.scene.pulley[i].side == Side::front;
+    s += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" stroke=\"#999\"/>\n", x(c.x), y(c.y),
+                     c.radius * scale, front ? "#e9eef3" : "#f4efe6");
+  }
+  if (m.tensioner.pulley >= 0) {
+    const Circle& c = circles[static_cast<std::size_t>(m.tensioner.pulley)];
+    s += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#555\" stroke-width=\"6\" "
+        "stroke-linecap=\"round\" "
+        "opacity=\"0.6\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"#333\"/>\n",
+        x(m.tensioner.pivot_x), y(m.tensioner.pivot_y), x(c.x), y(c.y), x(m.tensioner.pivot_x), y(m.tensioner.pivot_y));
+  }
+  const auto [low, high] = std::minmax_element(tension.begin(), tension.end());
+  const std::size_t n = circles.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Span &span = route.spans[i], &next = route.spans[(i + 1) % n];
+    s += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"4\"><title>{}: "
+        "{:.0f} N</title></line>\n",
+        x(span.from.x), y(span.from.y), x(span.to.x), y(span.to.y), colour(tension[i], *low, *high),
+        span_name(m.scene, i), tension[i]);
+    const std::size_t j = (i + 1) % n;
+    const Circle& c = circles[j];
+    // In the picture y points down, so a counterclockwise arc is drawn with sweep 0.
+    s += fmt::format(
+        "<path d=\"M {:.1f} {:.1f} A {:.1f} {:.1f} 0 {} {} {:.1f} {:.1f}\" fill=\"none\" stroke=\"{}\" "
+        "stroke-width=\"4\"/>\n",
+        x(span.to.x), y(span.to.y), c.radius * scale, c.radius * scale, route.wrap[j] > std::numbers::pi ? 1 : 0,
+        c.turn > 0 ? 0 : 1, x(next.from.x), y(next.from.y), colour(0.5 * (tension[i] + tension[j]), *low, *high));
+    const double mx = 0.5 * (span.from.x + span.to.x), my = 0.5 * (span.from.y + span.to.y);
+    s += fmt::format(
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"#333\" stroke=\"#fff\" stroke-width=\"3\" "
+        "paint-order=\"stroke\">{:.0f} N</text>\n",
+        x(mx), y(my) + 4, tension[i]);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    s += fmt::format(
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-weight=\"bold\" stroke=\"#fff\" "
+        "stroke-width=\"3\" "
+        "paint-order=\"stroke\">{}</text>\n",
+        x(circles[i].x), y(circles[i].y) + 4, m.scene.pulley[i].name);
+  s += fmt::format(
+      "<line x1=\"20\" y1=\"{0:.0f}\" x2=\"{1:.0f}\" y2=\"{0:.0f}\" stroke=\"#333\" stroke-width=\"2\"/><text x=\"20\" "
+      "y=\"{2:.0f}\">100 mm</text>\n</svg>\n<figcaption>Belt from blue, {3:.0f} N, to red, {4:.0f} N. Ribs run on the "
+      "grey "
+      "pulleys, the back on the beige ones.</figcaption>\n</figure>\n",
+      height - 22, 20 + 0.1 * scale, height - 6, *low, *high);
+  return s;
+}
+
+}  // namespace beltlife

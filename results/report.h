@@ -1,0 +1,14 @@
+// Owns the report: one self-contained HTML page about a result file.
+#pragma once
+
+#include <string>
+
+#include "results/result_reader.h"
+
+namespace beltlife {
+
+/// The page. Sections have the ids summary, layout, losses, ranges (with range-NAME), life, warnings, provenance.
+/// Throws BadInput if the file's scene cannot be read or gnuplot is missing.
+std::string report_html(const ResultFile& file, const std::string& name);
+
+}  // namespace beltlife

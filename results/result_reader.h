@@ -1,0 +1,21 @@
+// Owns the way back from an HDF5 result file to the records that were written.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "results/results_file.h"
+#include "sim/record.h"
+
+namespace beltlife {
+
+struct ResultFile {
+  Provenance provenance;
+  std::vector<RunRecord> runs;
+};
+
+/// Reads what write_results wrote; everything derived (summaries, life) is worked out again from it. Throws BadInput
+/// for a file that is not one of ours, of another format, or damaged.
+ResultFile read_results(const std::filesystem::path& path);
+
+}  // namespace beltlife

@@ -1,0 +1,41 @@
+// Owns natural frequencies over crank speed and where orders of the crank's rotation meet them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/modes/modes.h"
+
+namespace beltlife {
+
+/// One natural frequency over the crank speeds of its diagram.
+struct FrequencyCurve {
+  std::string name;                  ///< "rotational 2, arm free", "transverse 1 of crank-idler"
+  std::optional<ArmState> arm;       ///< of a rotational mode; none: transverse
+  std::vector<double> frequency_hz;  ///< at each crank speed
+};
+
+struct Campbell {
+  std::vector<double> crank_rpm;    ///< increasing
+  std::vector<std::string> meshes;  ///< at each speed: which gear pairs are engaged, so that a jump shows as one
+  std::vector<FrequencyCurve> curves;
+};
+
+/// From 5 % below the slowest range to 5 % above the fastest. Empty without ranges or pulleys. Rotational modes that
+/// lie above the highest order everywhere are left out, and those at 0 Hz.
+Campbell campbell(const Model& model, int points = 41, const ModesOptions& options = {});
+
+/// An order of the crank's rotation meets a natural frequency.
+struct Crossing {
+  double frequency_hz = 0;
+  double order = 0;                 ///< cycles per revolution of the driven body
+  double crank_rpm = 0;             ///< where they meet
+  std::string mode;                 ///< name of the curve
+  std::optional<std::string> near;  ///< the nearest range, if its speed is within 5 %
+};
+
+/// Sorted by order, then speed. Orders are those tracked by default, 0.5 to 9 by halves.
+std::vector<Crossing> crossings(const Campbell& diagram, const std::vector<RangeSpec>& ranges);
+
+}  // namespace beltlife

@@ -1,0 +1,60 @@
+// Owns the natural frequencies of a drive: rotational modes with their shapes, and the free spans as travelling
+// strings.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/modes/linear_drive.h"
+
+namespace beltlife {
+
+/// One rotational mode. The shape is scaled so that its largest entry is 1, and in one measure for all: the belt travel
+/// to which a turn amounts. A body's turn in rad is shape x speed_ratio (rad/m) x its running sense, the arm's turn is
+/// shape / (distance from pivot to pulley centre).
+struct Mode {
+  double frequency_hz = 0;
+  double damping_ratio = 0;         ///< of the modal damping alone (see damping_ratio in README.md); NaN at 0 Hz
+  std::vector<double> body_shape;   ///< per body; 0 for one that does not vibrate
+  double arm_shape = 0;             ///< of the tensioner pulley's centre, positive counterclockwise
+  std::vector<double> body_energy;  ///< per body: share of the kinetic energy
+  double arm_energy = 0;            ///< likewise
+  double belt_energy = 0;           ///< likewise; all shares sum to 1
+};
+
+struct ArmModes {
+  ArmState arm = ArmState::none;
+  std::vector<Mode> modes;  ///< lowest first; a mode at 0 Hz turns freely
+};
+
+/// First two transverse frequencies of a free span: a string with fixed ends through which the belt travels,
+/// f_n = n (c^2 - v^2) / (2 L c).
+struct SpanModes {
+  std::string name;
+  double length = 0;                     ///< L, m
+  double tension = 0;                    ///< N, centrifugal part included
+  double wave_speed = 0;                 ///< c = sqrt(tension / mass per stretched length), m/s
+  std::array<double, 2> frequency_hz{};  ///< 0 where the span is slack or the belt outruns its own waves
+};
+
+/// Everything at one operating point.
+struct Modes {
+  RangeSpec range;
+  LoopEstimate loop;           ///< about which the drive is linearised
+  std::vector<ArmModes> arms;  ///< one entry a state of the tensioner arm
+  std::vector<SpanModes> spans;
+};
+
+struct ModesOptions {
+  double highest_hz = 1000;  ///< rotational modes above are left out
+  LinearOptions linear;
+};
+
+/// Nothing (no arms, no spans) for a scene without pulleys.
+Modes solve_modes(const Model& model, const RangeSpec& range, const ModesOptions& options = {});
+
+/// The bodies, arm or belt that hold most of a mode's kinetic energy, e.g. "turbine 62 %, arm 20 %".
+std::string describe(const Model& model, const Mode& mode);
+
+}  // namespace beltlife
