@@ -87,18 +87,28 @@ int run(int argc, char** argv) {
 
   CLI::App* check = app.add_subcommand(
       "check", "read a scene, solve its layout and static balance, print limits and names; runs nothing");
+  CLI::App* modes = app.add_subcommand(
+      "modes", "natural frequencies of every range, rotational and of the spans, and their crossings with orders");
   CLI::App* simulate = app.add_subcommand(
       "simulate",
       "run the whole profile (or --range, --each-range) and print tensions, slip, hub loads, spectra and energy");
   CLI::App* life =
       app.add_subcommand("life", "run every range alone, in parallel, and print stresses and the life of the belt");
-  for (CLI::App* command : {check, simulate, life}) {
+  for (CLI::App* command : {check, modes, simulate, life}) {
     common_flags(*command, o, shorthand);
-    if (command != check) run_flags(*command, o);
+    if (command != check && command != modes) run_flags(*command, o);
   }
   std::string scene;  // not the list: a vector positional would swallow the value of a flag that does not exist
   check->add_option("scene", scene, "scene file (TOML)")->required();
   check->footer("Example:\n  beltlife check sim/scenes/baseline.toml --json");
+  modes->add_option("scene", scene, "scene file (TOML)")->required();
+  modes->add_option("--map", o.map, "also draw frequencies over crank speed with rays of orders (needs gnuplot)")
+      ->type_name("FILE.svg")
+      ->check(not_empty());
+  modes->footer(
+      "Examples:\n"
+      "  beltlife modes sim/scenes/baseline.toml\n"
+      "  beltlife modes sim/scenes/accessory_drive.toml --map accessory.svg");
   simulate->add_option("scene", scene, "scene file (TOML)")->required();
   simulate->add_flag("--each-range", o.each_range, "every range alone, in parallel, instead of the profile");
   simulate->add_flag("--profile", o.profile, "print the time spent in each kernel");
@@ -143,11 +153,12 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *simulate || *report) o.scenes = {scene};
+  if (*check || *modes || *simulate || *report) o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
   if (*check) return beltlife::run_check(o);
+  if (*modes) return beltlife::run_modes(o);
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
   if (*report) return beltlife::run_report(o);

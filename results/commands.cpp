@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "results/print.h"
+#include "results/print_statics.h"
 #include "results/progress.h"
 #include "results/results_file.h"
 #include "results/table.h"
@@ -22,6 +25,8 @@
 
 namespace beltlife {
 namespace {
+
+constexpr double degree = 180 / std::numbers::pi;
 
 // A scene ready to run.
 struct Loaded {
@@ -51,6 +56,18 @@ void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const s
                "a measurement of the whole profile, or shorter profile.hold_s, or fewer ranges"}});
 }
 
+// Elements longer than a fifth of a radius touch a pulley with one or two nodes at a time.
+void warn_coarse(const Model& m) {
+  if (m.pulleys == 0) return;
+  const auto smallest = std::min_element(m.pulley_radius.begin(), m.pulley_radius.end());
+  if (m.belt.element_length <= *smallest / 5) return;
+  fmt::print(stderr,
+             "warning: elements of {:.1f} mm are coarse for pulley {}; contact forces and life need at least {:.0f} "
+             "elements\n",
+             1e3 * m.belt.element_length, m.body_name[static_cast<std::size_t>(smallest - m.pulley_radius.begin())],
+             std::ceil(5 * m.belt.unstretched_length / *smallest));
+}
+
 Loaded load(const std::string& path, const CommandOptions& o) {
   Loaded l{read_scene(path, o.settings), {}, {}, out_of(path, o)};
   if (!l.out.empty()) check_writable(l.out);
@@ -64,20 +81,37 @@ Loaded load(const std::string& path, const CommandOptions& o) {
     l.measured = read_speed_csv(csv);
     refuse_short(*l.measured, l.file.scene, csv.string());
   }
+  warn_coarse(l.model);
   return l;
 }
 
 // A path may hold bytes that are no UTF-8; JSON cannot, and shows a replacement character.
 std::string text_of(const nlohmann::json& j) { return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace); }
 
+// A measured speed is what counts, not the speed that a range is named after.
+void warn_of_speed(const std::vector<RunPlan>& plans, const SceneSpec& scene) {
+  for (const RunPlan& plan : plans)
+    for (const Window& window : plan.windows)
+      for (const RangeSpec& range : scene.range)
+        if (range.name == window.range && std::abs(window.crank_rpm - range.crank_rpm) > 0.05 * range.crank_rpm)
+          fmt::print(stderr, "warning: range {} is stated at {:g} r/min, the measured speed in its window is {:.0f}\n",
+                     range.name, range.crank_rpm, window.crank_rpm);
+}
+
 double seconds_of(const std::vector<RunPlan>& plans) {
   return std::accumulate(plans.begin(), plans.end(), 0.0, [](double sum, const RunPlan& p) { return sum + p.end_s; });
 }
 
-std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& plans, const CommandOptions& o) {
+// Runs all plans; `wall_s` gets the time that it took, on however many threads.
+std::vector<RunOutcome> run_all(const Loaded& l, const std::vector<RunPlan>& plans, const CommandOptions& o,
+                                double& wall_s) {
+  if (l.measured) warn_of_speed(plans, l.file.scene);
   Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
-  return run_plans(
+  const auto start = std::chrono::steady_clock::now();
+  auto outcomes = run_plans(
       l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
+  wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcomes;
 }
 
 std::vector<RangeLoad> loads_of(const Loaded& l, const std::vector<RunRecord>& records) {
@@ -151,7 +185,6 @@ nlohmann::json json_of_runs(const std::vector<RunRecord>& records, const std::ve
 }
 
 nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretched) {
-  constexpr double degree = 180 / 3.14159265358979323846;
   nlohmann::json j{{"arm_angle_rad", layout.arm_angle},  {"path_length_mm", 1e3 * layout.route.length},
                    {"tension_n", layout.tension},        {"unstretched_length_m", unstretched},
                    {"pulleys", nlohmann::json::array()}, {"spans", nlohmann::json::array()}};
@@ -164,7 +197,6 @@ nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretc
 }
 
 void print_layout(const Model& m) {
-  constexpr double degree = 180 / 3.14159265358979323846;
   const StaticState& s = m.statics;
   Table table({"pulley", "side", "x mm", "y mm", "wrap deg placed", "at rest", "span to next mm placed", "at rest"});
   for (int p = 0; p < m.pulleys; ++p)
@@ -182,7 +214,7 @@ void print_layout(const Model& m) {
   numbers.row({"tension N", fmt::format("{:.1f}", s.placed.tension), fmt::format("{:.1f}", s.balance.tension)});
   numbers.row({"unstretched length mm", fmt::format("{:.1f}", 1e3 * s.placed_unstretched_length),
                fmt::format("{:.1f}", 1e3 * s.unstretched_length)});
-  numbers.row({"arm angle rad", "0.0000", fmt::format("{:.4f}", s.balance.arm_angle)});
+  if (m.tensioner.pulley >= 0) numbers.row({"arm angle rad", "0.0000", fmt::format("{:.4f}", s.balance.arm_angle)});
   fmt::print("{}\n", numbers.text(0));
   if (m.tensioner.pulley >= 0)
     fmt::print(
@@ -206,6 +238,14 @@ std::vector<RangeSummary> summaries_of(const Loaded& l, const std::vector<RunRec
   return summaries;
 }
 
+// Of what a life is: of the whole duty cycle only if all its ranges were run.
+std::string life_over(const std::vector<std::string>& ranges) {
+  if (ranges.empty()) return "the duty cycle";
+  std::string names;
+  for (const auto& name : ranges) names += (names.empty() ? "" : ", ") + name;
+  return (ranges.size() == 1 ? "range " : "ranges ") + names + " alone";
+}
+
 std::string heading(const Loaded& l) {
   return l.file.path.stem().string() + (l.file.scene.title.empty() ? "" : ": " + l.file.scene.title) + "\n";
 }
@@ -216,10 +256,10 @@ std::vector<std::string> comparison_row(const Loaded& l, const Life& life, const
   for (const RangeSpec& range : ranges) {
     const auto found =
         std::find_if(life.ranges.begin(), life.ranges.end(), [&](const RangeLife& r) { return r.name == range.name; });
-    row.push_back(found == life.ranges.end() ? "-" : fmt::format("{:.4g}", found->life_h));
+    row.push_back(found == life.ranges.end() ? "-" : number_text(found->life_h, "{:.4g}"));
   }
-  row.push_back(fmt::format("{:.4g}", life.life_h));
-  row.push_back(fmt::format("{:.2f}", life.log10_life_h));
+  row.push_back(number_text(life.life_h, "{:.4g}"));
+  row.push_back(number_text(life.log10_life_h, "{:.2f}"));
   return row;
 }
 
@@ -249,6 +289,7 @@ int run_check(const CommandOptions& o) {
       j["clearances"] = nlohmann::json::array();
       for (const Clearance& c : clearances(m.scene, m.statics.balance.route))
         j["clearances"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
+      add_statics(m, j);
     }
     fmt::print("{}\n", text_of(j));
     return 0;
@@ -261,6 +302,7 @@ int run_check(const CommandOptions& o) {
     for (const Clearance& c : all)
       if (c.unit == "mm" && (!tightest || c.value < tightest->value)) tightest = &c;
     if (tightest) fmt::print("tightest clearance: {}, {:.1f} mm\n\n", tightest->name, tightest->value);
+    fmt::print("{}", statics_text(m));
   }
   Table table({"step limit", "s", "formula"});
   for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
@@ -281,7 +323,8 @@ int run_simulate(const CommandOptions& o) {
         *l.file.scene.driver->speed_csv, 0, "driver.speed_csv",
         fmt::format("starts at {:g} r/min, but the drive starts from rest", l.measured->speed_rpm.front()),
         "a measurement that starts from rest, or single ranges (--range, --each-range), which ramp up to it"}});
-  auto outcomes = run_all(l, plans, o);
+  double wall = 0;
+  auto outcomes = run_all(l, plans, o, wall);
   std::vector<KernelTime> times;
   for (const RunOutcome& outcome : outcomes) {
     if (times.empty()) times.resize(outcome.kernel_times.size());
@@ -297,13 +340,11 @@ int run_simulate(const CommandOptions& o) {
   write_file(l, records, loads.empty() ? nullptr : &life, o);
   const bool failed = report_failures(records, plans);
 
-  double wall = 0, simulated = 0, residual = 0;
+  double simulated = 0, residual = 0;
   std::int64_t steps = 0;
   nlohmann::json ranges = nlohmann::json::object();
   std::string text;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const RunRecord& run = records[i];
-    wall = std::max(wall, run.wall_s);
+  for (const RunRecord& run : records) {
     simulated += run.simulated_s;
     steps += run.steps;
   }
@@ -342,19 +383,25 @@ int run_life(const CommandOptions& o) {
     if (drives.back().file.scene.range.empty())
       throw BadInput(
           {Problem{path, 0, "range", "the scene has no operating range, so no life", "at least one [[range]]"}});
+    for (std::size_t i = 0; i + 1 < drives.size(); ++i)
+      if (!drives[i].out.empty() && drives[i].out == drives.back().out)
+        throw BadInput({Problem{path, 0, "--out", "its results would overwrite those of " + o.scenes[i],
+                                "scenes with different file names"}});
     plans_of_drive.push_back(plans_of(drives.back().file.scene, o.ranges, drives.back().speed()));
   }
   bool failed = false;
   nlohmann::json all = nlohmann::json::array();
   std::vector<std::string> header{"life h"};
   for (const RangeSpec& range : drives.front().file.scene.range) header.push_back(range.name);
-  header.push_back("duty cycle");
+  const std::string over = life_over(o.ranges);
+  header.push_back(o.ranges.empty() ? "duty cycle" : "these ranges");
   header.push_back("log10");
   Table comparison(header);
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const Loaded& l = drives[i];
     const auto& plans = plans_of_drive[i];
-    const auto records = records_of(run_all(l, plans, o));
+    double wall = 0;
+    const auto records = records_of(run_all(l, plans, o, wall));
     const auto loads = loads_of(l, records);
     const Life life = life_of(l, loads, records);
     write_file(l, records, loads.empty() ? nullptr : &life, o);
@@ -365,6 +412,7 @@ int run_life(const CommandOptions& o) {
     for (const RangeLoad& load : loads) j["ranges"][load.name]["loads"] = json_of(load);
     j["scene"] = l.file.path.string();
     j["status"] = bad ? "failed" : "ok";
+    j["partial"] = !o.ranges.empty();
     comparison.row(comparison_row(l, life, drives.front().file.scene.range));
     const auto summaries = summaries_of(l, records);
     details += heading(l) + "\n";
@@ -372,7 +420,7 @@ int run_life(const CommandOptions& o) {
       details += text_of(summary) + "\n";
       if (summary.complete) j["ranges"][summary.name]["power_w"] = json_of(summary)["power_w"];
     }
-    if (!o.json) fmt::print("{}\n{}\n{}\n", heading(l), loss_table(summaries), text_of(life));
+    if (!o.json) fmt::print("{}\n{}\n{}\n", heading(l), loss_table(summaries), text_of(life, over));
     if (o.flank_for_life_h > 0) {
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;

@@ -18,12 +18,14 @@ struct CommandOptions {
   bool each_range = false;      ///< --each-range of simulate
   bool profile = false;         ///< --profile: time by kernel
   std::string details;          ///< --details of life: text file for what simulate prints, empty: none
+  std::string map;              ///< --map of modes: SVG file, empty: none
   double flank_for_life_h = 0;  ///< --flank-for of life, 0: not asked
   std::string command_line, version, revision, compiler;
 };
 
 /// Return the process exit code: 0 done, 3 ran but failed. Throw BadInput (exit 2).
 int run_check(const CommandOptions& options);
+int run_modes(const CommandOptions& options);
 int run_simulate(const CommandOptions& options);
 int run_life(const CommandOptions& options);
 /// Reads a result file (`scenes` holds its name) and writes a page beside it, or to --out.

@@ -94,7 +94,7 @@ inline constexpr std::array<std::string_view, energy_names.size()> energy_about{
     "dissipated by the tensioner's dry friction",
     "change of kinetic and elastic energy over the window"};
 inline constexpr Dataset residual{"residual", "J", "work - losses - change of stored energy: what is unaccounted for"};
-inline constexpr Dataset throughput{"throughput", "J", "sum of the positive works"};
+inline constexpr Dataset throughput{"throughput", "J", "sum of the positive works and of what the stores gave up"};
 
 inline constexpr Dataset element_normal{"normal_n", "N", "normal force on the element"};
 inline constexpr Dataset element_tangential{"tangential_n", "N", "friction force on the element"};

@@ -12,11 +12,13 @@ namespace {
 
 constexpr double mega = 1e-6;
 
-std::string cycles_text(double n) { return std::isfinite(n) ? fmt::format("{:.3g}", n) : "no end"; }
-
-std::string hours_text(double h) { return std::isfinite(h) ? fmt::format("{:.4g}", h) : "no end"; }
-
 }  // namespace
+
+// Infinite is a statement (nothing wears), not a number is none.
+std::string number_text(double value, const char* format) {
+  if (std::isnan(value)) return "-";
+  return std::isinf(value) ? "no end" : fmt::format(fmt::runtime(format), value);
+}
 
 nlohmann::json finite(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
 
@@ -62,6 +64,7 @@ nlohmann::json json_of(const RangeSummary& s) {
 nlohmann::json json_of(const Life& life) {
   nlohmann::json j{{"life_h", finite(life.life_h)},
                    {"log10_life_h", finite(life.log10_life_h)},
+                   {"infinite", std::isinf(life.life_h)},
                    {"ranges", nlohmann::json::object()}};
   if (life.error) j["error"] = *life.error;
   for (const RangeLife& range : life.ranges) {
@@ -145,7 +148,7 @@ std::string text_of(const RangeSummary& s) {
     for (const OrderLine& line : s.output->orders)
       if (line.order == 0.5 || line.order == std::floor(line.order))
         orders.row({fmt::format("{:g}", line.order), fmt::format("{:.1f}", line.hz),
-                    fmt::format("{:.3f}", line.speed_rpm), fmt::format("{:.3f}", line.torque_n_m)});
+                    number_text(line.speed_rpm, "{:.3f}"), number_text(line.torque_n_m, "{:.3f}")});
     out += orders.text(4) + "\n";
   }
   Table power({"power", "W"});
@@ -179,29 +182,36 @@ std::string loss_table(const std::vector<RangeSummary>& ranges) {
   return table.text(0);
 }
 
-std::string text_of(const Life& life) {
+std::string text_of(const Life& life, const std::string& over) {
   std::string out;
+  double shares = 0;
+  for (const RangeLife& range : life.ranges) shares += range.duty_share;
+  const auto share = [&](const RangeLife& range) {
+    return shares > 0 ? range.duty_share / shares : 1.0 / static_cast<double>(life.ranges.size());
+  };
   Table pulleys({"range", "pulley", "axial MPa mean", "alt", "bending", "transverse", "shear", "sigma_m", "sigma_a",
                  "rounds", "damage %"});
   for (const RangeLife& range : life.ranges)
     for (const PulleyLife& p : range.pulleys)
-      pulleys.row({range.name, p.name, fmt::format("{:.3f}", p.axial_mean * mega),
-                   fmt::format("{:.3f}", p.axial_alternating * mega), fmt::format("{:.3f}", p.bending * mega),
-                   fmt::format("{:.3f}", p.transverse * mega), fmt::format("{:.3f}", p.shear * mega),
-                   fmt::format("{:.3f}", p.sigma_m * mega), fmt::format("{:.3f}", p.sigma_a * mega),
-                   cycles_text(p.cycles), fmt::format("{:.1f}", 100 * p.damage_share)});
+      pulleys.row({range.name, p.name, number_text(p.axial_mean * mega, "{:.3f}"),
+                   number_text(p.axial_alternating * mega, "{:.3f}"), number_text(p.bending * mega, "{:.3f}"),
+                   number_text(p.transverse * mega, "{:.3f}"), number_text(p.shear * mega, "{:.3f}"),
+                   number_text(p.sigma_m * mega, "{:.3f}"), number_text(p.sigma_a * mega, "{:.3f}"),
+                   number_text(p.cycles, "{:.3g}"), number_text(100 * p.damage_share, "{:.1f}")});
   Table ranges({"range", "time %", "rounds to failure", "life h", "log10", "damage %"});
   for (const RangeLife& range : life.ranges)
-    ranges.row({range.name, fmt::format("{:.0f}", 100 * range.duty_share), cycles_text(range.cycles),
-                hours_text(range.life_h), fmt::format("{:.2f}", std::log10(range.life_h)),
-                fmt::format("{:.1f}", 100 * range.damage_share)});
+    ranges.row({range.name, number_text(100 * share(range), "{:.0f}"), number_text(range.cycles, "{:.3g}"),
+                number_text(range.life_h, "{:.4g}"), number_text(std::log10(range.life_h), "{:.2f}"),
+                number_text(100 * range.damage_share, "{:.1f}")});
   out += pulleys.text(0) + "\n" + ranges.text(0);
   for (const RangeLife& range : life.ranges)
     if (range.error) out += "  no life in range " + range.name + ": " + *range.error + "\n";
   if (life.error)
     out += "\nNo life: " + *life.error + "\n";
+  else if (std::isinf(life.life_h))
+    out += fmt::format("\nLife over {}: no end\n", over);
   else
-    out += fmt::format("\nLife over the duty cycle: {} h (log10 {:.2f})\n", hours_text(life.life_h), life.log10_life_h);
+    out += fmt::format("\nLife over {}: {:.4g} h (log10 {:.2f})\n", over, life.life_h, life.log10_life_h);
   return out;
 }
 
@@ -210,7 +220,7 @@ std::string text_of(const std::vector<KernelTime>& times, int nodes) {
   for (const KernelTime& t : times) total += t.seconds;
   Table table({"kernel", "share %", "ns per node and evaluation"});
   for (const KernelTime& t : times)
-    table.row({t.name, fmt::format("{:.1f}", 100 * t.seconds / total),
+    table.row({t.name, number_text(100 * t.seconds / total, "{:.1f}"),
                fmt::format("{:.2f}", t.calls ? 1e9 * t.seconds / (double(t.calls) * nodes) : 0.0)});
   return table.text(0);
 }

@@ -18,7 +18,10 @@ nlohmann::json json_of(const RangeLoad& load);
 nlohmann::json json_of(const RunStatus& status);
 
 std::string text_of(const RangeSummary& summary);
-std::string text_of(const Life& life);
+/// `over` says of what: "the duty cycle", "range B100 alone".
+std::string text_of(const Life& life, const std::string& over);
+/// A number by a format; "no end" where it is infinite, "-" where there is none.
+std::string number_text(double value, const char* format);
 /// What the torque tables and the driver put in, and what bending the belt costs beside it, per range.
 std::string loss_table(const std::vector<RangeSummary>& ranges);
 std::string text_of(const RunStatus& status);

@@ -40,7 +40,8 @@ std::string table(const std::string& id, const Row& header, const std::vector<Ro
 }
 
 std::string number(double value, int digits = 0) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "no end";
+  if (std::isnan(value)) return "-";
+  return std::isinf(value) ? "no end" : fmt::format("{:.{}f}", value, digits);
 }
 
 /// Everything that the page is about, worked out again from the records.
@@ -115,20 +116,28 @@ std::vector<std::string> warnings(const Subject& s) {
   return out;
 }
 
+/// Of what the life is: of the duty cycle only if the file holds all its ranges.
+std::string life_over(const Subject& s) {
+  if (s.life->ranges.size() >= s.model.scene.range.size()) return "its duty cycle";
+  std::string names;
+  for (const RangeLife& range : s.life->ranges) names += (names.empty() ? "" : ", ") + range.name;
+  return "range" + std::string(s.life->ranges.size() > 1 ? "s " : " ") + names + " alone";
+}
+
 std::string summary_section(const Subject& s) {
   std::string words;
   std::vector<Row> rows;
   if (s.life && !s.life->error) {
     const Governing g = governing(*s.life);
     words = fmt::format(
-        "The belt is predicted to live <strong>{} h</strong> over its duty cycle (log10 {:.2f}). Most of the damage, "
-        "{:.0f} %, "
-        "is done in range {}, there by pulley {} ({:.0f} %). ",
-        number(s.life->life_h), s.life->log10_life_h, 100 * g.range->damage_share, escaped(g.range->name),
-        escaped(g.pulley->name), 100 * g.pulley->damage_share);
+        "The belt is predicted to live <strong>{} h</strong> over {} (log10 {:.2f}). Most of the damage, {:.0f} %, is "
+        "done "
+        "in range {}, there by pulley {} ({:.0f} %). ",
+        number(s.life->life_h), escaped(life_over(s)), s.life->log10_life_h, 100 * g.range->damage_share,
+        escaped(g.range->name), escaped(g.pulley->name), 100 * g.pulley->damage_share);
     words += fmt::format("One per cent more stress is {:.0f} % less life: read it as an order of magnitude.",
                          100 * (1 - std::pow(1.01, 1 / s.model.scene.fatigue.exponent)));
-    rows.push_back({"life over the duty cycle", number(s.life->life_h) + " h"});
+    rows.push_back({"life over " + life_over(s), number(s.life->life_h) + " h"});
   }
   double tension = 0, low = 1e300, hub = 0, residual = 0, bending = 0;
   std::string tension_at, low_at, hub_at;

@@ -67,9 +67,11 @@ void spread(Model& m, const std::vector<Link>& links) {
       if (m.sense[l.from] != 0 && m.sense[l.to] == 0) {
         m.sense[l.to] = l.sense * m.sense[l.from];
         m.speed_ratio[l.to] = m.speed_ratio[l.from] * l.ratio;
+        m.train[l.to] = m.train[l.from];
       } else if (m.sense[l.from] == 0 && m.sense[l.to] != 0) {
         m.sense[l.from] = l.sense * m.sense[l.to];
         m.speed_ratio[l.from] = m.speed_ratio[l.to] / l.ratio;
+        m.train[l.from] = m.train[l.to];
       }
     }
 }
@@ -91,11 +93,14 @@ void compile_bodies(Model& m, std::string_view file) {
   // does at its first body.
   m.sense.resize(m.bodies, 0);
   m.speed_ratio.resize(m.bodies, 0);
+  m.train.resize(m.bodies, 0);
   spread(m, links);
+  int train = 0;
   for (int b = 0; b < m.bodies; ++b)
     if (m.sense[b] == 0) {
       m.sense[b] = m.scene.rotation == Rotation::counterclockwise ? 1 : -1;
       m.speed_ratio[b] = 1;
+      m.train[b] = ++train;
       spread(m, links);
     }
   for (const auto& l : links)
@@ -106,7 +111,7 @@ void compile_bodies(Model& m, std::string_view file) {
                               "ends that turn alike for a spring, opposite for gears"}});
 }
 
-void compile_train(Model& m) {
+void compile_train(Model& m, std::string_view file) {
   for (const auto& s : m.scene.torsional_spring)
     m.springs.push_back({body_index(m, s.from), body_index(m, s.to), s.stiffness_n_m_per_rad, s.damping_n_m_s_per_rad});
   for (const auto& g : m.scene.gear_pair) {
@@ -120,6 +125,11 @@ void compile_train(Model& m) {
     const int body = body_index(m, t.body);
     TorqueTable table{body, 1, {t.speeds_rpm, t.torques_n_m}};
     for (double& x : table.torque.x) x *= std::numbers::pi / 30;
+    if (t.referred_to && m.train[body_index(m, *t.referred_to)] != m.train[body])
+      throw BadInput(
+          {Problem{std::string(file), 0, "torque." + t.name + ".referred_to",
+                   fmt::format("{} is not connected to {}, so there is no speed ratio", *t.referred_to, t.body),
+                   "a body connected by belt, shafts or gears"}});
     if (t.referred_to) table.factor = m.speed_ratio[body_index(m, *t.referred_to)] / m.speed_ratio[body];
     m.torques.push_back(std::move(table));
   }
@@ -211,7 +221,7 @@ Model compile(const SceneSpec& scene, std::string_view file) {
   m.contact = compile_contact(scene.contact, scene.belt, m.belt.element_length);
   compile_pulleys(m);
   compile_bodies(m, file);
-  compile_train(m);
+  compile_train(m, file);
   compile_tensioner(m);
   if (scene.driver) {
     m.driver = {body_index(m, scene.driver->body), scene.driver->control, scene.driver->speed_gain_n_m_s_per_rad,

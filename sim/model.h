@@ -94,6 +94,8 @@ struct Model {
   std::vector<double> sense;
   std::vector<double> speed_ratio;  ///< |speed| at a belt speed of 1 m/s without slip, rad/m
 
+  std::vector<int> train;  ///< 0: reached from the belt over shafts and gears; others count from 1
+
   std::vector<TorsionalSpring> springs;
   std::vector<GearPair> gears;
   std::vector<TorqueTable> torques;

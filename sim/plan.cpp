@@ -16,6 +16,12 @@ SpeedProfile synthetic(const SceneSpec& scene, const std::vector<double>& t, con
   return SpeedProfile(t, w, harmonics_of(*scene.driver), scene.driver->phase_rad);
 }
 
+// What is driven, not what the range is called after.
+void take_measured_speed(RunPlan& plan) {
+  for (Window& w : plan.windows)
+    w.crank_rpm = (plan.profile.at(w.end_s).angle - plan.profile.at(w.begin_s).angle) / (w.end_s - w.begin_s) / rad_s;
+}
+
 Window window_of(const SceneSpec& scene, const RangeSpec& range, double hold_end) {
   return {range.name, range.crank_rpm, range.duty_share, hold_end - scene.profile.evaluate_s, hold_end};
 }
@@ -52,6 +58,7 @@ RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const Measure
     plan.profile = synthetic(scene, t, w);
   }
   plan.windows.push_back(window_of(scene, range, plan.end_s));
+  if (measured) take_measured_speed(plan);
   return plan;
 }
 
@@ -72,6 +79,7 @@ RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured) {
     std::vector<double> speed;
     for (double v : measured->speed_rpm) speed.push_back(v * rad_s);
     plan.profile = SpeedProfile(measured->time_s, speed);
+    take_measured_speed(plan);
   } else {
     plan.profile = synthetic(scene, t, w);
   }

@@ -1,6 +1,8 @@
 // Owns the arithmetic of the energy account.
 #include "sim/record.h"
 
+#include <algorithm>
+
 namespace beltlife {
 
 namespace {
@@ -16,15 +18,16 @@ double EnergyAccount::residual() const {
 }
 
 double EnergyAccount::throughput() const {
-  double in = 0;
+  double in = std::max(0.0, -(*this)[Energy::stored]);
   for (std::size_t i = 0; i < first_loss; ++i)
     if (joule[i] > 0) in += joule[i];
   return in;
 }
 
 double EnergyAccount::relative_residual() const {
+  constexpr double nothing = 1e-3;  // J: a drive at rest or coasting without loss has nothing to account for
   const double in = throughput();
-  return in > 0 ? residual() / in : 0;
+  return in > nothing ? residual() / in : 0;
 }
 
 }  // namespace beltlife

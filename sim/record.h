@@ -73,7 +73,7 @@ struct EnergyAccount {
   double operator[](Energy e) const { return joule[static_cast<std::size_t>(e)]; }
   /// What is not accounted for: work - losses - change of stored energy, J.
   double residual() const;
-  /// What went through the drive: the sum of the positive works, J.
+  /// What went through the drive: the sum of the positive works and what the stores gave up, J.
   double throughput() const;
   /// residual / throughput; 0 for a drive that nothing went through.
   double relative_residual() const;

@@ -31,7 +31,8 @@ std::vector<Channel> channels_of(const Model& m) {
   for (const auto& name : m.body_name) add(name + ".speed_rpm", "r/min", "speed in the running sense");
   if (m.scene.output)
     add(m.scene.output->body + ".torque_n_m", "N m",
-        "output torque, positive when it drives the belt in the running sense");
+        m.scene.output->spring ? "torque of the output spring from its `from` to its `to`, in the running sense"
+                               : "torque of the pulley on the belt, in the running sense");
   if (m.driver.body >= 0) {
     add("driver.angle_rad", "rad", "nominal angle of the driven body, without ripple");
     add("driver.torque_n_m", "N m", "torque that the driver puts in, in the running sense");
@@ -123,7 +124,8 @@ void Sensors::sample(const Simulator& s, std::vector<Channel>& channels) {
   for (int b = 0; b < m.bodies; ++b) put(channels, at, m.sense[b] * q.speed[b] * rpm);
   if (m.scene.output) {
     const int body = body_index(m, m.scene.output->body), spring = output_spring(m);
-    put(channels, at, m.sense[body] * (spring >= 0 ? w.spring_torque[spring] : -w.belt_torque[body]));
+    put(channels, at,
+        spring >= 0 ? m.sense[m.springs[spring].from] * w.spring_torque[spring] : -m.sense[body] * w.belt_torque[body]);
   }
   if (m.driver.body >= 0) {
     const int d = m.driver.body;

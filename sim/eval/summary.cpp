@@ -47,9 +47,15 @@ OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord
   const auto angle = stretch(run, window, "driver.angle_rad");
   const auto orders = default_orders();
   const auto of_speed = track_orders(speed, angle, orders), of_torque = track_orders(torque, angle, orders);
-  for (std::size_t i = 0; i < of_speed.size(); ++i)
+  // Every order stands here, whatever the window could tell apart, so that names depend on the scene alone.
+  const auto amplitude = [](const std::vector<OrderAmplitude>& tracked, double order) {
+    for (const OrderAmplitude& o : tracked)
+      if (o.order == order) return o.amplitude;
+    return std::nan("");
+  };
+  for (double order : orders)
     out.orders.push_back(
-        {of_speed[i].order, of_speed[i].order * window.crank_rpm / 60, of_speed[i].amplitude, of_torque[i].amplitude});
+        {order, order * window.crank_rpm / 60, amplitude(of_speed, order), amplitude(of_torque, order)});
   return out;
 }
 
@@ -90,7 +96,8 @@ RangeSummary summarise(const Model& m, const RunRecord& run, const WindowRecord&
     s.spans.push_back({name, t.mean, t.low, t.high, d.low, d.high});
     s.pulleys.push_back(pulley_of(m, run, window, p));
   }
-  for (double joule : window.energy.joule) s.power_w.push_back(joule / (window.end_s - window.begin_s));
+  const double observed = std::min(window.end_s, run.simulated_s) - window.begin_s;
+  for (double joule : window.energy.joule) s.power_w.push_back(joule / observed);
   s.energy_residual = window.energy.relative_residual();
   if (m.tensioner.pulley >= 0) {
     const Extent a = extent(stretch(run, window, "tensioner.arm_angle_rad"));

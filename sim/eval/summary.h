@@ -13,8 +13,8 @@ namespace beltlife {
 struct OrderLine {
   double order = 0;
   double hz = 0;          ///< at the range's mean speed of the driven body
-  double speed_rpm = 0;   ///< amplitude
-  double torque_n_m = 0;  ///< amplitude
+  double speed_rpm = 0;   ///< amplitude; not a number where the window cannot tell the order (Nyquist, length)
+  double torque_n_m = 0;  ///< likewise
 };
 
 /// The two outputs that are compared with measurements.

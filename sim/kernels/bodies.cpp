@@ -86,7 +86,7 @@ std::vector<Kernel> force_program(const Model& m) {
   std::vector<Kernel> list;
   const bool stiff = m.belt.bending_stiffness > 0, bending = stiff || m.belt.bending_damping > 0;
   list.push_back({"belt ghosts", belt_ghosts});
-  list.push_back(bending ? Kernel{"belt axial, turning", belt_axial_turning} : Kernel{"belt axial", belt_axial});
+  list.push_back(bending ? Kernel{"belt axial and turning", belt_axial_turning} : Kernel{"belt axial", belt_axial});
   if (bending)
     list.push_back(stiff ? Kernel{"belt bending", belt_bending} : Kernel{"belt bending damping", belt_bending_damping});
   list.push_back({"belt forces", belt_forces});

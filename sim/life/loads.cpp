@@ -55,13 +55,15 @@ void summarise(const std::vector<double>& sampled, const std::vector<double>& re
 }
 
 /// The pulley whose surface speed is taken for the belt's (D and RPM of thesis 6.12): the driven one, or the first
-/// pulley, with its recorded speed, where what is driven is no pulley.
+/// that can turn, with its recorded speed, where what is driven is no pulley.
 void set_belt_speed(const SceneSpec& scene, const RunRecord& run, const WindowRecord& window, RangeLoad& load) {
   if (scene.pulley.empty()) return;
   const auto driven =
       scene.driver ? std::ranges::find(scene.pulley, scene.driver->body, &PulleySpec::name) : scene.pulley.end();
   const bool driver_is_pulley = driven != scene.pulley.end();
-  const PulleySpec& pulley = driver_is_pulley ? *driven : scene.pulley.front();
+  const auto turning = std::ranges::find(scene.pulley, false, &PulleySpec::locked);
+  if (!driver_is_pulley && turning == scene.pulley.end()) return;
+  const PulleySpec& pulley = driver_is_pulley ? *driven : *turning;
   load.driver_radius_m = pulley.pitch_diameter_mm * 0.5e-3;
   load.driver_rpm =
       std::abs(driver_is_pulley ? window.crank_rpm : extent(run.trace, window, pulley.name + ".speed_rpm").mean);

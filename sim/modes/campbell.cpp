@@ -27,8 +27,12 @@ std::vector<FrequencyCurve> rotational_curves(const std::vector<Modes>& points, 
     for (const Modes& p : points) count = std::min(count, p.arms[a].modes.size());
     for (std::size_t k = 0; k < count; ++k) {
       const ArmState arm = points.front().arms[a].arm;
-      FrequencyCurve curve{name_of_rotational(arm, k + 1), arm, {}};
-      for (const Modes& p : points) curve.frequency_hz.push_back(p.arms[a].modes[k].frequency_hz);
+      FrequencyCurve curve{name_of_rotational(arm, k + 1), arm, {}, 0};
+      curve.damping_ratio = std::nan("");
+      for (const Modes& p : points) {
+        curve.frequency_hz.push_back(p.arms[a].modes[k].frequency_hz);
+        curve.damping_ratio = std::fmin(curve.damping_ratio, p.arms[a].modes[k].damping_ratio);
+      }
       const auto [low, high] = std::minmax_element(curve.frequency_hz.begin(), curve.frequency_hz.end());
       if (*low<highest_hz&& * high> standing_hz) curves.push_back(std::move(curve));
     }
@@ -40,7 +44,7 @@ std::vector<FrequencyCurve> transverse_curves(const std::vector<Modes>& points) 
   std::vector<FrequencyCurve> curves;
   for (std::size_t k = 0; k < points.front().spans.size(); ++k)
     for (int n = 0; n < 2; ++n) {
-      FrequencyCurve curve{fmt::format("transverse {} of {}", n + 1, points.front().spans[k].name), {}, {}};
+      FrequencyCurve curve{fmt::format("transverse {} of {}", n + 1, points.front().spans[k].name), {}, {}, 0};
       for (const Modes& p : points) curve.frequency_hz.push_back(p.spans[k].frequency_hz[n]);
       curves.push_back(std::move(curve));
     }
@@ -66,10 +70,12 @@ Campbell campbell(const Model& model, int points, const ModesOptions& options) {
       ranges.begin(), ranges.end(), [](const RangeSpec& a, const RangeSpec& b) { return a.crank_rpm < b.crank_rpm; });
   const double first = (1 - near_share) * slow->crank_rpm, last = (1 + near_share) * fast->crank_rpm;
   if (last <= first) return diagram;  // nothing turns
+  ModesOptions undamped = options;
+  undamped.damped_basis = 0;
   std::vector<Modes> at;
   for (int i = 0; i < points; ++i) {
     diagram.crank_rpm.push_back(first + (last - first) * i / (points - 1));
-    at.push_back(solve_modes(model, {"", diagram.crank_rpm.back(), 0}, options));
+    at.push_back(solve_modes(model, {"", diagram.crank_rpm.back(), 0}, undamped));
     std::string mesh;
     for (const bool engaged : at.back().loop.gear_engaged) mesh += engaged ? '1' : '0';
     diagram.meshes.push_back(std::move(mesh));
@@ -90,7 +96,7 @@ std::vector<Crossing> crossings(const Campbell& diagram, const std::vector<Range
         const double above1 = curve.frequency_hz[i + 1] - order * n1 / 60;
         if ((above0 < 0) == (above1 < 0)) continue;
         const double rpm = n0 + (n1 - n0) * above0 / (above0 - above1);
-        found.push_back({order * rpm / 60, order, rpm, curve.name, range_near(ranges, rpm)});
+        found.push_back({order * rpm / 60, order, rpm, curve.name, curve.damping_ratio, range_near(ranges, rpm)});
       }
   std::stable_sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) {
     return std::tie(a.order, a.crank_rpm) < std::tie(b.order, b.crank_rpm);

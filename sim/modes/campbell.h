@@ -14,6 +14,7 @@ struct FrequencyCurve {
   std::string name;                  ///< "rotational 2, arm free", "transverse 1 of crank-idler"
   std::optional<ArmState> arm;       ///< of a rotational mode; none: transverse
   std::vector<double> frequency_hz;  ///< at each crank speed
+  double damping_ratio = 0;          ///< modal, the least over these speeds; 0 of a span
 };
 
 struct Campbell {
@@ -32,6 +33,7 @@ struct Crossing {
   double order = 0;                 ///< cycles per revolution of the driven body
   double crank_rpm = 0;             ///< where they meet
   std::string mode;                 ///< name of the curve
+  double damping_ratio = 0;         ///< of the curve
   std::optional<std::string> near;  ///< the nearest range, if its speed is within 5 %
 };
 

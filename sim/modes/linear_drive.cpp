@@ -45,6 +45,16 @@ void add(Eigen::MatrixXd& matrix, const Form& form, double weight) {
       if (i >= 0 && j >= 0) matrix(i, j) += weight * a * b;
 }
 
+// matrix += weight (a b^T + b a^T)
+void add_product(Eigen::MatrixXd& matrix, const Form& a, const Form& b, double weight) {
+  for (const auto& [i, x] : a)
+    for (const auto& [j, y] : b)
+      if (i >= 0 && j >= 0) {
+        matrix(i, j) += weight * x * y;
+        matrix(j, i) += weight * x * y;
+      }
+}
+
 // Linear between two joints: integral of weight x^2 over a piece, `weight` being that of the whole piece.
 void add_consistent(Eigen::MatrixXd& matrix, const Form& a, const Form& b, double weight) {
   add(matrix, a + b, weight / 6);
@@ -78,10 +88,11 @@ class Assembly {
     for (int p = 0; p < m_.pulleys; ++p) {
       arc_pieces_.push_back(pieces(arc_length(p), options_.piece));
       span_pieces_.push_back(pieces(loop_.route.spans[p].length, options_.piece));
-      first_row_.push_back(rows);
-      rows += arc_pieces_[p] + span_pieces_[p];
+      arc_row_.push_back(rows);
+      if (!gripped(p)) rows += arc_pieces_[p] + 1;
+      span_row_.push_back(rows);
+      rows += span_pieces_[p] - 1;
     }
-    first_row_.push_back(d_.belt_row);  // the loop closes
     d_.mass = d_.stiffness = d_.damping = Eigen::MatrixXd::Zero(rows, rows);
     if (m_.tensioner.pulley >= 0) {
       const Circle& c = loop_.route.circles[m_.tensioner.pulley];
@@ -118,6 +129,17 @@ class Assembly {
     return m_.scene.belt.mass_kg_per_m * length / stretch(tension);
   }
 
+  // Where the belt must skid (on a locked pulley of a running drive, or without friction) nothing holds it.
+  bool skids(int p) const { return m_.pulley_friction[p] == 0 || (m_.scene.pulley[p].locked && loop_.belt_speed != 0); }
+  // The belt goes with the pulley's surface and needs no coordinates of its own.
+  bool gripped(int p) const { return !options_.contact_compliance && !skids(p); }
+  Form surface(int p) const {
+    const Circle& c = loop_.route.circles[p];
+    return {{d_.body_row[p], c.turn * c.radius}};
+  }
+  // Travel of the belt at joint i of an arc, 0 .. arc_pieces.
+  Form on_arc(int p, int i) const { return gripped(p) ? surface(p) : Form{{arc_row_[p] + i, 1.0}}; }
+
   // How far a pulley's centre moves along a direction when the arm turns by a radian; 0 for all but the arm's pulley.
   double centre_along(int pulley, const Vec2& direction) const {
     return pulley == m_.tensioner.pulley ? cross(r_, direction) : 0;
@@ -130,39 +152,31 @@ class Assembly {
     const double length = arc_length(p) / n, tension = 0.5 * (loop_.tension[p] + loop_.tension[before]);
     const double l0 = length / stretch(tension), mass = mass_of(length, tension);
 
-    // Where the belt must skid (on a locked pulley of a running drive, or without friction) nothing holds it.
-    const bool skids = m_.pulley_friction[p] == 0 || (m_.scene.pulley[p].locked && loop_.belt_speed != 0);
-    double ea = m_.belt.axial_stiffness, decay = 1e-5;  // a grip so short that it adds no length worth mentioning
+    double ea = m_.belt.axial_stiffness, decay = 1;
     if (options_.contact_compliance) {
       const double radial = m_.contact.stiffness / m_.belt.element_length;
       ea = 1 / (1 / ea + 1 / (circle.radius * circle.radius * radial));
       decay = std::sqrt(ea * m_.belt.element_length / m_.contact.friction_stiffness);
     }
-    // The friction law's velocity element below its saturation, a metre.
-    const double viscous = options_.contact_compliance ? (1 - m_.contact.anchor_share) * m_.pulley_friction[p] *
-                                                             std::max(tension - loop_.centrifugal, 0.0) /
-                                                             (circle.radius * m_.contact.friction_speed)
-                                                       : 0;
-    const Form pulley{{d_.body_row[p], circle.turn * circle.radius}};
+    const Form pulley = surface(p);
     const Vec2 from = loop_.route.spans[before].to;
     double ex = from.x - circle.x, ey = from.y - circle.y;  // centre to the piece's begin
     const double cos = std::cos(loop_.route.wrap[p] / n), sin = circle.turn * std::sin(loop_.route.wrap[p] / n);
     for (int i = 0; i < n; ++i) {
-      const Form a{{first_row_[p] + i, 1.0}}, b{{first_row_[p] + i + 1, 1.0}};
-      if (skids) {
+      const Form a = on_arc(p, i), b = on_arc(p, i + 1);
+      if (skids(p)) {
         add(d_.stiffness, b - a, ea / l0);
-      } else {
+      } else if (!gripped(p)) {
         const double x = l0 / decay;
         add(d_.stiffness, b - a, ea / decay / std::sinh(x));
         for (const Form& end : {a, b}) add(d_.stiffness, end - pulley, ea / decay * std::tanh(0.5 * x));
-        add_consistent(d_.damping, a - pulley, b - pulley, viscous * length);
       }
       add(d_.damping, b - a, m_.belt.axial_damping / l0);
       add_consistent(d_.mass, a, b, mass);
       const Vec2 chord{(cos - 1) * ex - sin * ey, sin * ex + (cos - 1) * ey};
       if (d_.arm_row >= 0 && p == m_.tensioner.pulley) {
         const double share = 0.5 * mass / length * centre_along(p, chord);
-        for (const Form& end : {a, b}) couple(d_.mass, end[0].first, d_.arm_row, share);
+        add_product(d_.mass, a + b, arm_times(1), share);
         add(d_.mass, arm_times(1), mass * dot(r_, r_));
       }
       ex += chord.x;
@@ -170,19 +184,14 @@ class Assembly {
     }
   }
 
-  static void couple(Eigen::MatrixXd& matrix, int i, int j, double value) {
-    matrix(i, j) += value;
-    matrix(j, i) += value;
-  }
-
   void span(int p) {
     const Span& s = loop_.route.spans[p];
-    const int n = span_pieces_[p], next = (p + 1) % m_.pulleys, row = first_row_[p] + arc_pieces_[p];
+    const int n = span_pieces_[p], next = (p + 1) % m_.pulleys;
     const double length = s.length / n, tension = loop_.tension[p], l0 = length / stretch(tension);
     const auto joint = [&](int i) -> Form {
-      if (i == 0) return Form{{row, 1.0}} + arm_times(centre_along(p, s.direction));
-      if (i == n) return Form{{first_row_[p + 1], 1.0}} + arm_times(centre_along(next, s.direction));
-      return {{row + i, 1.0}};
+      if (i == 0) return on_arc(p, arc_pieces_[p]) + arm_times(centre_along(p, s.direction));
+      if (i == n) return on_arc(next, 0) + arm_times(centre_along(next, s.direction));
+      return {{span_row_[p] + i - 1, 1.0}};
     };
     for (int i = 0; i < n; ++i) {
       const Form a = joint(i), b = joint(i + 1);
@@ -215,7 +224,7 @@ class Assembly {
   const LoopEstimate& loop_;
   const LinearOptions& options_;
   LinearDrive d_;
-  std::vector<int> arc_pieces_, span_pieces_, first_row_;
+  std::vector<int> arc_pieces_, span_pieces_, arc_row_, span_row_;
   Vec2 r_;  // pivot to centre of the arm's pulley
 };
 

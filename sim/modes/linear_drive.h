@@ -25,7 +25,8 @@ struct LinearOptions {
   double piece = 0.04;
 };
 
-/// M q'' + C q' + K q = 0. Coordinates: turns of the free bodies, arm angle, travel of points of the belt.
+/// M q'' + C q' + K q = 0; C holds the viscous dampers (belt, shafts, teeth, arm, PID driver) and no dry friction.
+/// Coordinates: turns of the free bodies, arm angle, travel of points of the belt.
 struct LinearDrive {
   Eigen::MatrixXd mass;       ///< kg m^2, kg; symmetric, positive
   Eigen::MatrixXd stiffness;  ///< N m/rad, N/m; symmetric

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace beltlife {
@@ -44,15 +45,38 @@ Mode mode_of(const Model& m, const LoopEstimate& loop, const LinearDrive& d, dou
   return mode;
 }
 
-std::vector<Mode> rotational(const Model& m, const LoopEstimate& loop, ArmState arm, const ModesOptions& options) {
+// In the basis of the lowest undamped modes (unit modal mass): z' = [0 1; -W^2 -X^T C X] z.
+std::vector<DampedMode> damped_modes(const Eigen::VectorXd& omega2, const Eigen::MatrixXd& damping, double highest_hz) {
+  const Eigen::Index n = omega2.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = (-omega2).asDiagonal();
+  a.bottomRightCorner(n, n) = -damping;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
+  std::vector<DampedMode> modes;
+  if (solver.info() != Eigen::Success) return modes;
+  for (const std::complex<double>& s : solver.eigenvalues()) {
+    const double hz = s.imag() / (2 * std::numbers::pi);
+    if (hz > 0.1 && hz <= highest_hz) modes.push_back({hz, -s.real() / std::abs(s)});
+  }
+  std::sort(modes.begin(), modes.end(), [](const auto& x, const auto& y) { return x.frequency_hz < y.frequency_hz; });
+  return modes;
+}
+
+ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, const ModesOptions& options) {
   const LinearDrive d = linearise(m, loop, arm, options.linear);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(d.stiffness, d.mass);
-  std::vector<Mode> modes;
+  ArmModes modes{arm, {}, {}};
   if (solver.info() != Eigen::Success) return modes;
   for (Eigen::Index k = 0; k < solver.eigenvalues().size(); ++k) {
     Mode mode = mode_of(m, loop, d, solver.eigenvalues()[k], solver.eigenvectors().col(k));
     if (mode.frequency_hz > options.highest_hz) break;
-    modes.push_back(std::move(mode));
+    modes.modes.push_back(std::move(mode));
+  }
+  const Eigen::Index basis = std::min<Eigen::Index>(options.damped_basis, solver.eigenvalues().size());
+  if (basis > 0) {
+    const auto x = solver.eigenvectors().leftCols(basis);
+    modes.damped = damped_modes(solver.eigenvalues().head(basis), x.transpose() * d.damping * x, options.highest_hz);
   }
   return modes;
 }
@@ -76,7 +100,7 @@ Modes solve_modes(const Model& m, const RangeSpec& range, const ModesOptions& op
   Modes modes{range, {}, {}, {}};
   if (m.pulleys == 0) return modes;
   modes.loop = estimate_loop(m, range.crank_rpm);
-  for (const ArmState arm : arm_states(m)) modes.arms.push_back({arm, rotational(m, modes.loop, arm, options)});
+  for (const ArmState arm : arm_states(m)) modes.arms.push_back(rotational(m, modes.loop, arm, options));
   for (std::size_t k = 0; k < modes.loop.route.spans.size(); ++k) modes.spans.push_back(string_modes(m, modes.loop, k));
   return modes;
 }

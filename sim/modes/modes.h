@@ -15,7 +15,7 @@ namespace beltlife {
 /// shape / (distance from pivot to pulley centre).
 struct Mode {
   double frequency_hz = 0;
-  double damping_ratio = 0;         ///< of the modal damping alone (see damping_ratio in README.md); NaN at 0 Hz
+  double damping_ratio = 0;         ///< from the diagonal of the modal damping, good where small; NaN at 0 Hz
   std::vector<double> body_shape;   ///< per body; 0 for one that does not vibrate
   double arm_shape = 0;             ///< of the tensioner pulley's centre, positive counterclockwise
   std::vector<double> body_energy;  ///< per body: share of the kinetic energy
@@ -23,9 +23,17 @@ struct Mode {
   double belt_energy = 0;           ///< likewise; all shares sum to 1
 };
 
+/// A vibration of the drive with its viscous dampers: a pair of complex eigenvalues. Dampers so strong that they all
+/// but clutch two bodies together make these other modes than the undamped ones, so that they are counted on their own.
+struct DampedMode {
+  double frequency_hz = 0;   ///< of the decaying vibration, Im / 2 pi
+  double damping_ratio = 0;  ///< -Re / modulus
+};
+
 struct ArmModes {
   ArmState arm = ArmState::none;
-  std::vector<Mode> modes;  ///< lowest first; a mode at 0 Hz turns freely
+  std::vector<Mode> modes;         ///< lowest first; a mode at 0 Hz turns freely
+  std::vector<DampedMode> damped;  ///< lowest first; without what does not vibrate
 };
 
 /// First two transverse frequencies of a free span: a string with fixed ends through which the belt travels,
@@ -48,6 +56,7 @@ struct Modes {
 
 struct ModesOptions {
   double highest_hz = 1000;  ///< rotational modes above are left out
+  int damped_basis = 40;     ///< undamped modes, lowest first, that the damped ones are made of; 0: leave those out
   LinearOptions linear;
 };
 

@@ -346,7 +346,7 @@ struct OutputSpec {
   void visit(V& v) {
     v("body", body, required_text, "pulley or body whose speed is the output");
     v("spring", spring, any_text,
-      "torsional spring whose torque is the output; absent: the torque of the belt on the body, a pulley");
+      "torsional spring whose torque is the output; absent: the torque of the body, a pulley, on the belt");
   }
 };
 

@@ -125,6 +125,12 @@ class SceneCheck {
       if (rider && rider->x_mm == tensioner->pivot_x_mm && rider->y_mm == tensioner->pivot_y_mm) {
         complain(path.child("pivot_x_mm"), "the pivot is the centre of the arm's pulley", "an arm that has a length");
       }
+      const bool inert = tensioner->inertia_kg_m2 > 0 || (rider && rider->mass_kg > 0) ||
+                         (tensioner->mass_kg > 0 && tensioner->cg_distance_mm != 0);
+      if (rider && !inert) {
+        complain(path.child("inertia_kg_m2"), "the arm has no inertia about its pivot",
+                 "inertia, or mass of arm or pulley");
+      }
     }
     if (const auto& output = scene_.output) {
       const SpecPath path = SpecPath{}.child("output");
@@ -244,6 +250,13 @@ class SceneCheck {
       complain(evaluate,
                fmt::format("{} s is longer than the hold of {} s", scene_.profile.evaluate_s, scene_.profile.hold_s),
                "at most hold_s");
+    }
+    const double samples = scene_.profile.evaluate_s * scene_.solver.sample_rate_hz;
+    if (samples < 8 && !log_.is_faulty("profile.evaluate_s") && !log_.is_faulty("solver.sample_rate_hz")) {
+      complain(evaluate,
+               fmt::format("{} s hold {:.3g} samples at {} Hz", scene_.profile.evaluate_s, samples,
+                           scene_.solver.sample_rate_hz),
+               "at least 8 samples");
     }
   }
 

@@ -61,12 +61,9 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme) {
   double slope = 0;
   for (int p = 0; p < m.pulleys; ++p)
     slope = std::max(slope, friction_damping_rate(m, m.pulley_friction[p], expected_normal_force(m, p)));
-  out.push_back({"axial belt wave, damping and friction slope",
+  out.push_back({m.pulleys > 0 ? "axial belt wave and damping, friction slope" : "axial belt wave and damping",
                  "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m) + mu Fn (1-beta)/(vs m)",
                  mode_limit(4 * b.axial_stiffness / (l * mass), axial_damping_rate(m) + slope)});
-  if (slope == 0 || b.axial_damping == 0)
-    out.push_back({"axial belt wave", "w^2 = 4 EA/(l0 m), c = 4 CA/(l0 m)",
-                   mode_limit(4 * b.axial_stiffness / (l * mass), axial_damping_rate(m))});
   if (b.bending_damping > 0 || b.bending_stiffness > 0)
     out.push_back(
         {"bending", "w^2 = 16 EI/(l0^3 m), c = 16 CI/(l0^3 m)",

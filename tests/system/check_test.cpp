@@ -74,9 +74,9 @@ TEST(Check, ListsEachQuantityOfEachRangeOnce) {
 
 TEST(Check, ShowsWhatFlagsAndSettingsChanged) {
   const auto plain = checked(scene("two_pulley"));
-  const auto j = checked(scene("two_pulley"), {"--elements", "132", "--scheme", "thesis", "--step", "1e-7", "--set",
+  const auto j = checked(scene("two_pulley"), {"--elements", "240", "--scheme", "thesis", "--step", "1e-7", "--set",
                                                "belt.pretension_n=500", "--set", "pulley.driven.x_mm = 600"});
-  EXPECT_EQ(j["elements"], 132);
+  EXPECT_EQ(j["elements"], 240);
   EXPECT_EQ(j["scheme"], "thesis");
   EXPECT_NEAR(j["step_s"], 1e-7, 1e-9);  // rounded so that samples fall on steps
   EXPECT_NEAR(j["static"]["tension_n"], 500, 1e-6);

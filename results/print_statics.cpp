@@ -1,0 +1,187 @@
+// Tables and JSON of the statics: see print_statics.h.
+#include "results/print_statics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "results/print.h"
+#include "results/table.h"
+#include "sim/statics/quasi_static.h"
+#include "sim/statics/take_up.h"
+
+namespace beltlife {
+namespace {
+
+constexpr double degree = 180 / std::numbers::pi, rpm = 30 / std::numbers::pi;
+
+std::vector<QuasiStaticRange> solve_all(const Model& m) {
+  std::vector<QuasiStaticRange> ranges;
+  for (const RangeSpec& range : m.scene.range) ranges.push_back(solve_quasi_static(m, range));
+  return ranges;
+}
+
+Life estimate(const Model& m, const std::vector<QuasiStaticRange>& ranges) {
+  std::vector<RangeLoad> loads;
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    if (!ranges[i].error) loads.push_back(estimated_load(m, m.scene.range[i], ranges[i]));
+  Life life = duty_cycle_life(loads, m.scene.fatigue);
+  if (loads.size() < ranges.size() && !life.error) {
+    life.error = "not every range has a quasi-static solution";
+    life.life_h = life.log10_life_h = std::nan("");
+  }
+  return life;
+}
+
+double direction(const QuasiStaticPulley& p) { return std::atan2(p.hub_y, p.hub_x) * degree; }
+
+std::string band(double value, double low, double high) {
+  return high > low ? fmt::format("{:.0f} ({:.0f} to {:.0f})", value, low, high) : fmt::format("{:.0f}", value);
+}
+
+nlohmann::json json_of(const QuasiStaticRange& r) {
+  if (r.error) return {{"crank_rpm", r.crank_rpm}, {"error", *r.error}};
+  nlohmann::json j{
+      {"crank_rpm", r.crank_rpm},         {"belt_speed_m_s", r.belt_speed},        {"centrifugal_n", r.centrifugal},
+      {"driver_power_w", r.driver_power}, {"torque_table_power_w", r.table_power}, {"loss_w", r.loss},
+      {"spans", nlohmann::json::array()}, {"pulleys", nlohmann::json::array()}};
+  if (r.arm_angle) {
+    j["arm_angle_rad"] = *r.arm_angle;
+    j["arm_angle_rad_low"] = *r.arm_angle_low;
+    j["arm_angle_rad_high"] = *r.arm_angle_high;
+  }
+  for (const QuasiStaticSpan& s : r.spans)
+    j["spans"].push_back({{"name", s.name},
+                          {"tension_n", s.tension},
+                          {"tension_n_low", s.tension_low},
+                          {"tension_n_high", s.tension_high}});
+  for (const QuasiStaticPulley& p : r.pulleys)
+    j["pulleys"].push_back({{"name", p.name},
+                            {"speed_rpm", p.speed * rpm},
+                            {"torque_n_m", p.torque},
+                            {"wrap_deg", p.wrap * degree},
+                            {"hub_load_n", p.hub_load},
+                            {"hub_load_n_low", p.hub_load_low},
+                            {"hub_load_n_high", p.hub_load_high},
+                            {"hub_direction_deg", direction(p)},
+                            {"slip_safety", p.slip_safety ? finite(*p.slip_safety) : nlohmann::json(nullptr)},
+                            {"bending_loss_w", p.bending_loss},
+                            {"rigid_bending_loss_w", p.rigid_loss},
+                            {"creep_loss_w", p.creep_loss}});
+  return j;
+}
+
+std::string tensions_text(const std::vector<QuasiStaticRange>& ranges) {
+  std::vector<std::string> header{"span tension N"};
+  const QuasiStaticRange* first = nullptr;
+  for (const QuasiStaticRange& r : ranges)
+    if (!r.error) {
+      header.push_back(r.name);
+      if (!first) first = &r;
+    }
+  std::string out;
+  if (first) {
+    Table table(header);
+    for (std::size_t i = 0; i < first->spans.size(); ++i) {
+      std::vector<std::string> row{first->spans[i].name};
+      for (const QuasiStaticRange& r : ranges)
+        if (!r.error) row.push_back(band(r.spans[i].tension, r.spans[i].tension_low, r.spans[i].tension_high));
+      table.row(row);
+    }
+    const auto add = [&](const char* name, auto value) {
+      std::vector<std::string> row{name};
+      for (const QuasiStaticRange& r : ranges)
+        if (!r.error) row.push_back(value(r));
+      table.row(row);
+    };
+    add("of it centrifugal", [](const auto& r) { return fmt::format("{:.0f}", r.centrifugal); });
+    if (first->arm_angle) add("arm angle rad", [](const auto& r) { return fmt::format("{:.4f}", *r.arm_angle); });
+    add("driver W", [](const auto& r) { return fmt::format("{:.0f}", r.driver_power); });
+    add("torque tables W", [](const auto& r) { return fmt::format("{:.0f}", r.table_power); });
+    add("losses W", [](const auto& r) { return fmt::format("{:.0f}", r.loss); });
+    out += table.text(0);
+  }
+  for (const QuasiStaticRange& r : ranges)
+    if (r.error) out += fmt::format("{}: no quasi-static solution: {}\n", r.name, *r.error);
+  return out + "\n";
+}
+
+std::string pulleys_text(const std::vector<QuasiStaticRange>& ranges) {
+  Table table({"range", "pulley", "hub load N", "direction deg", "torque N m", "slip safety", "bending loss W"});
+  bool any = false;
+  for (const QuasiStaticRange& r : ranges)
+    for (const QuasiStaticPulley& p : r.pulleys) {
+      any = true;
+      table.row({r.name, p.name, band(p.hub_load, p.hub_load_low, p.hub_load_high), fmt::format("{:.0f}", direction(p)),
+                 fmt::format("{:.2f}", p.torque), p.slip_safety ? fmt::format("{:.1f}", *p.slip_safety) : "-",
+                 fmt::format("{:.0f}", p.bending_loss)});
+    }
+  return any ? table.text(0) + "\n" : "";
+}
+
+std::string life_text(const Life& life) {
+  Table table({"range", "pulley", "sigma_m MPa", "sigma_a MPa", "damage %"});
+  for (const RangeLife& range : life.ranges)
+    for (const PulleyLife& p : range.pulleys)
+      table.row({range.name, p.name, fmt::format("{:.3f}", 1e-6 * p.sigma_m), fmt::format("{:.3f}", 1e-6 * p.sigma_a),
+                 fmt::format("{:.1f}", 100 * p.damage_share)});
+  return table.text(0) + "\n" +
+         (life.error ? "no estimate of the life: " + *life.error + "\n\n"
+                     : fmt::format("estimated life over the duty cycle: {:.3g} h (log10 {:.1f})\n\n", life.life_h,
+                                   life.log10_life_h));
+}
+
+}  // namespace
+
+std::string statics_text(const Model& m) {
+  std::string out;
+  if (const auto rows = take_up(m); !rows.empty()) {
+    Table table({"take-up", "arm rad", "belt path mm", "unstretched mm", "tension N", "ended by"});
+    for (const TakeUpRow& r : rows)
+      table.row({r.name, fmt::format("{:.4f}", r.arm_angle), fmt::format("{:.1f}", 1e3 * r.path_length),
+                 fmt::format("{:.1f}", 1e3 * r.unstretched_length), fmt::format("{:.0f}", r.tension), r.reason});
+    out += table.text(0) + "\n";
+  }
+  if (m.pulleys == 0 || m.scene.range.empty()) return out;
+  const auto ranges = solve_all(m);
+  out += "quasi-static: steady running at the mean speed, no ripple; in brackets between the arm's friction limits\n\n";
+  out += tensions_text(ranges) + pulleys_text(ranges);
+  bool solved = false;
+  for (const QuasiStaticRange& r : ranges) solved = solved || !r.error;
+  if (solved)
+    out += fmt::format(
+               "estimate of stress and life, from steady tensions and T' l0/R times {:.2f} (sampled) or {:.2f} "
+               "(resolved), measured on the thesis' drive\n(no vibration: `beltlife life` simulates)\n\n",
+               sampled_peak_factor, resolved_peak_factor) +
+           life_text(estimate(m, ranges));
+  return out;
+}
+
+void add_statics(const Model& m, nlohmann::json& answer) {
+  if (m.pulleys == 0) return;
+  if (const auto rows = take_up(m); !rows.empty()) {
+    answer["take_up"] = nlohmann::json::array();
+    for (const TakeUpRow& r : rows)
+      answer["take_up"].push_back({{"name", r.name},
+                                   {"arm_angle_rad", r.arm_angle},
+                                   {"path_length_mm", 1e3 * r.path_length},
+                                   {"unstretched_length_mm", 1e3 * r.unstretched_length},
+                                   {"tension_n", finite(r.tension)},
+                                   {"ended_by", r.reason}});
+  }
+  if (m.scene.range.empty()) return;
+  const auto ranges = solve_all(m);
+  for (const QuasiStaticRange& r : ranges) answer["quasi_static"][r.name] = json_of(r);
+  const Life life = estimate(m, ranges);
+  for (const RangeLife& range : life.ranges) {
+    auto& target = answer["quasi_static"][range.name];
+    target["estimated_life_h"] = finite(range.life_h);
+    for (std::size_t i = 0; i < range.pulleys.size(); ++i) {
+      target["pulleys"][i]["estimated_sigma_m_mpa"] = finite(1e-6 * range.pulleys[i].sigma_m);
+      target["pulleys"][i]["estimated_sigma_a_mpa"] = finite(1e-6 * range.pulleys[i].sigma_a);
+    }
+  }
+}
+
+}  // namespace beltlife

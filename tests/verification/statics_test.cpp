@@ -1,0 +1,161 @@
+// Owns the verification of the quasi-static solution: against the running simulator, by hand, and by its own balances.
+#include "drives.h"
+#include "sim/eval/summary.h"
+#include "sim/statics/layer.h"
+#include "sim/statics/quasi_static.h"
+#include "sim/statics/take_up.h"
+
+namespace beltlife {
+namespace {
+
+using drives::pi;
+
+RangeSpec range_of(const SceneSpec& scene, const std::string& name) {
+  for (const RangeSpec& r : scene.range)
+    if (r.name == name) return r;
+  throw std::logic_error("no range " + name);
+}
+
+// The simulator at constant crank speed, its tensioner free of friction, for a moment of steady running.
+void compare(const std::string& name, const std::string& range, int elements) {
+  SceneSpec scene = drives::shipped(name);
+  scene.belt.elements = elements;
+  scene.driver->ripple_scale = 0;
+  if (scene.tensioner) scene.tensioner->friction_torque_n_m = 0;
+  scene.profile.settle_s = 0.1;
+  scene.profile.ramp_s = 0.2;
+  scene.profile.hold_s = 0.3;
+  scene.profile.evaluate_s = 0.15;
+  const RangeSpec spec = range_of(scene, range);
+  const Model model = compile(scene);
+  const QuasiStaticRange q = solve_quasi_static(model, spec);
+  ASSERT_FALSE(q.error) << *q.error;
+  const RunRecord record = run(model, plan_range(scene, spec)).record;
+  ASSERT_TRUE(record.status.ok()) << record.status.cause;
+  const RangeSummary s = summarise(model, record, record.windows[0]);
+  for (int p = 0; p < model.pulleys; ++p) {
+    drives::report("tension of " + s.spans[p].name + ", N", s.spans[p].tension_n_mean, q.spans[p].tension);
+    EXPECT_NEAR(s.spans[p].tension_n_mean / q.spans[p].tension, 1, 0.02) << s.spans[p].name;
+    drives::report("hub load of " + s.pulleys[p].name + ", N", s.pulleys[p].hub_load_n, q.pulleys[p].hub_load);
+    // On a wrap of some degrees the load is T times the wrap, and an error of T x 0.01 in direction counts.
+    const double allowed = 0.02 * q.pulleys[p].hub_load + (q.pulleys[p].wrap < 0.35 ? 0.01 * q.spans[p].tension : 0);
+    EXPECT_NEAR(s.pulleys[p].hub_load_n, q.pulleys[p].hub_load, allowed) << s.pulleys[p].name;
+    const double direction = std::atan2(q.pulleys[p].hub_y, q.pulleys[p].hub_x) * 180 / pi;
+    EXPECT_NEAR(std::remainder(s.pulleys[p].hub_direction_deg - direction, 360), 0, 3) << s.pulleys[p].name;
+    EXPECT_NEAR(s.pulleys[p].speed_rpm_mean / (q.pulleys[p].speed * 30 / pi), 1, 0.002) << s.pulleys[p].name;
+  }
+  const auto lost = [&](Energy e) { return s.power_w[static_cast<std::size_t>(e)]; };
+  drives::report("losses, W",
+                 lost(Energy::lost_belt_bending) + lost(Energy::lost_contact_normal) + lost(Energy::lost_friction),
+                 q.loss);
+}
+
+TEST(Statics, QuasiStaticMeansAreThoseOfTheRunningBaseline) { compare("baseline", "B100", 512); }
+TEST(Statics, QuasiStaticMeansAreThoseOfTheRunningBaselineOnACoarseMesh) { compare("baseline", "B100", 256); }
+TEST(Statics, QuasiStaticMeansAreThoseOfTheRunningAccessoryDrive) { compare("accessory_drive", "town", 256); }
+TEST(Statics, QuasiStaticMeansAreThoseOfTwoRunningPulleys) { compare("two_pulley", "fast", 256); }
+
+TEST(Statics, PowerBalanceClosesAndNothingGainsPower) {
+  for (const char* name : {"baseline", "baseline_322n", "alternative_1", "alternative_2", "alternative_3",
+                           "accessory_drive", "two_pulley"}) {
+    const Model model = compile(drives::shipped(name));
+    for (const RangeSpec& range : model.scene.range) {
+      const QuasiStaticRange q = solve_quasi_static(model, range);
+      ASSERT_FALSE(q.error) << name << " " << range.name << ": " << *q.error;
+      const double through = std::max({std::abs(q.driver_power), std::abs(q.table_power), q.loss});
+      EXPECT_NEAR(q.driver_power + q.table_power, q.loss, 1e-9 * through) << name << " " << range.name;
+      for (const QuasiStaticPulley& p : q.pulleys) {
+        EXPECT_GT(p.bending_loss, 0) << name << " " << range.name << " " << p.name;
+        EXPECT_GT(p.creep_loss, -1e-6 * through) << name << " " << range.name << " " << p.name;
+      }
+    }
+  }
+}
+
+// Two equal pulleys on rigid contact, no bending: T1 + T2 from the length, T1 - T2 from the torque M/R, by hand. The
+// strain of either half is its span's, and on the arcs the mean: the sum of both tensions stays 2 T0 but for the part
+// of m'v^2 that a belt of fixed length holds itself.
+TEST(Statics, SlipSafetyOfTwoPulleysIsTheOneWorkedByHand) {
+  const double radius = 0.06, torque = 12, pretension = 600, rpm = 2000;
+  SceneSpec scene = drives::two_pulleys(512, 500, 2e3 * radius, 2e3 * radius, pretension);
+  scene.contact.stiffness_n_per_m3 = 1e14;
+  scene.torque.push_back({"load", "driven", {100, 10000}, {-torque, -torque}, {}});
+  const Model model = compile(scene);
+  const QuasiStaticRange q = solve_quasi_static(model, {"one", rpm, 1});
+  ASSERT_FALSE(q.error) << *q.error;
+  const double v = rpm * pi / 30 * radius, centrifugal = 0.4 * v * v;
+  const double tight = pretension + torque / radius / 2, slack = pretension - torque / radius / 2;
+  const double safety = 0.6 * pi / std::log((tight - centrifugal) / (slack - centrifugal));
+  drives::report("slip safety", *q.pulleys[1].slip_safety, safety);
+  // Chords of 3 mm on a radius of 60 mm give the belt 1e-4 more room, a tenth of its strain... of 600 N some per cent.
+  EXPECT_NEAR(*q.pulleys[1].slip_safety / safety, 1, 0.02);
+  // Creep dissipates T1 - T2 over half the difference of strains, on either pulley.
+  const double creep = v * std::pow(torque / radius, 2) / (2 * scene.belt.axial_stiffness_n);
+  drives::report("creep loss of one pulley, W", q.pulleys[1].creep_loss, creep);
+  EXPECT_NEAR(q.pulleys[1].creep_loss / creep, 1, 0.02);
+  EXPECT_NEAR(1 - q.pulleys[1].speed / q.pulleys[0].speed, torque / radius / (scene.belt.axial_stiffness_n + tight),
+              2e-5);
+}
+
+// The losses that belt_loss_test.cpp measured on the simulator, of the rigid pulley's: 0.87, 0.944, 0.973.
+TEST(Statics, LossOnSoftContactRisesToThatOfARigidPulley) {
+  const double layer = std::cbrt(1.7e-5 * 20 / 104.0), width = 8 * 3.56e-3;
+  double last = 0;
+  for (double stiffness : {1e9, 1e10, 1e11, 1e12}) {
+    const PassLayer pass = pass_layer(104 / (stiffness * width * layer * layer), 0.2 * pi / layer);
+    ASSERT_TRUE(pass.converged);
+    std::printf("    k_p %.0e N/m^3: loss %.3f of the rigid pulley's, peak pressure %.2f T'/R\n", stiffness,
+                pass.loss(), pass.peak);
+    EXPECT_GT(pass.loss(), last);
+    last = pass.loss();
+  }
+  EXPECT_NEAR(last, 1, 0.05);
+}
+
+TEST(Statics, LossOnAVanishingArcIsThatOfAPointLoad) {
+  // A kink by the angle b: CI v^2 times the integral of k'^2 is b^2/6 of the rigid pulley's loss.
+  for (double arc : {0.1, 0.2, 0.4}) EXPECT_NEAR(pass_layer(0.03, arc).loss() / (arc * arc / 6), 1, 0.03);
+}
+
+TEST(Statics, TakeUpIsThatOfTheRoute) {
+  for (const char* name : {"baseline", "alternative_3", "accessory_drive"}) {
+    const Model model = compile(drives::shipped(name));
+    const auto rows = take_up(model);
+    ASSERT_EQ(rows.size(), 4u);
+    const TensionerSpec& t = *model.scene.tensioner;
+    const double sense = model.statics.placed.length_per_arm_angle > 0 ? 1 : -1;
+    for (const TakeUpRow& row : rows) {
+      const auto length = [&](double angle) {
+        Route route;
+        EXPECT_TRUE(make_route(circles_of(model.scene, model.statics.orientation, angle), route));
+        return route.length;
+      };
+      EXPECT_NEAR(row.path_length, length(row.arm_angle), 1e-12) << name << " " << row.name;
+      const double h = 1e-6, gradient = (length(row.arm_angle + h) - length(row.arm_angle - h)) / (2 * h);
+      const double tension = (sense * t.spring_torque_n_m - t.spring_rate_n_m_per_rad * row.arm_angle) / gradient;
+      EXPECT_NEAR(row.tension, tension, 1e-5 * std::abs(tension) + 1e-3) << name << " " << row.name;
+      EXPECT_EQ(row.reason.empty(), row.name == "as placed" || row.name == "at rest") << row.reason;
+      if (row.name == "at rest") {
+        EXPECT_NEAR(row.unstretched_length, model.statics.unstretched_length, 1e-9) << name;
+      }
+      std::printf("    %s, %s: arm %.4f rad, path %.1f mm, unstretched %.1f mm, %.0f N %s\n", name, row.name.c_str(),
+                  row.arm_angle, 1e3 * row.path_length, 1e3 * row.unstretched_length, row.tension, row.reason.c_str());
+    }
+    EXPECT_GE(rows.front().path_length, rows.back().path_length);
+  }
+  EXPECT_TRUE(take_up(compile(drives::shipped("two_pulley"))).empty());
+}
+
+TEST(Statics, WhatHasNoSolutionSaysSoInWords) {
+  SceneSpec scene = drives::two_pulleys(256, 500, 120, 80, 300);
+  const RangeSpec range{"one", 2000, 1};
+  scene.torque.push_back({"load", "driven", {100, 10000}, {-60, -60}, {}});
+  EXPECT_TRUE(solve_quasi_static(compile(scene), range).error);  // 1500 N of effective tension from 300 N of pretension
+  scene.torque.clear();
+  scene.driver.reset();
+  EXPECT_NE(solve_quasi_static(compile(scene), range).error.value_or("").find("no driver"), std::string::npos);
+  EXPECT_TRUE(solve_quasi_static(compile(drives::shipped("spinning_ring")), range).error);
+}
+
+}  // namespace
+}  // namespace beltlife
