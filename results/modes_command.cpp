@@ -54,14 +54,15 @@ std::string map_script(const Model& m, const Campbell& diagram, const std::vecto
       "set terminal svg size 1200,760 dynamic noenhanced background rgb 'white'\n"
       "set xlabel 'crank speed, r/min'\nset ylabel 'frequency, Hz'\nset key outside right top noenhanced\n"
       "set grid lc rgb '#e6e6e6'\nset rmargin 46\n";
-  s += fmt::format("set title {}\nset xrange [{}:{}]\nset yrange [0:{}]\n", quoted(m.scene.title), first, last, top);
+  s += fmt::format("set title {} offset 0,0.8\nset xrange [{}:{}]\nset yrange [0:{}]\n", quoted(m.scene.title), first,
+                   last, top);
   std::string labelled;  // ranges at the same speed share a line
   for (const RangeSpec& range : m.scene.range) {
     const std::string at = fmt::format("{:g}", range.crank_rpm);
-    s += fmt::format("set arrow from {0},0 to {0},{1} nohead lc rgb '#bbbbbb' lw 6 back\n", at, top);
+    s += fmt::format("set arrow from {0},0 to {0},{1} nohead lc rgb '#dddddd' lw 6 back\n", at, top);
     if (labelled.find("<" + at + ">") == labelled.npos)
-      s += fmt::format("set label {} at {},{} rotate left font ',11' tc rgb '#777777'\n", quoted(range.name), at,
-                       0.985 * top - 0.12 * top);
+      s += fmt::format("set label {} at {},{} center offset 0,0.7 font ',11' tc rgb '#555555'\n", quoted(range.name),
+                       at, top);
     labelled += "<" + at + ">";
   }
   for (const double order : default_orders()) {
@@ -111,15 +112,25 @@ void draw_map(const std::string& file, const std::string& script) {
   }
 }
 
+// Shapes are those of the undamped mode; a damped one has a phase at each body and shows its energy only.
+nlohmann::json energy_json(const Model& m, const EnergyShares& energy) {
+  nlohmann::json j{{"arm", energy.arm}, {"belt", energy.belt}, {"bodies", nlohmann::json::object()}};
+  for (int b = 0; b < m.bodies; ++b) j["bodies"][m.body_name[b]] = energy.body[b];
+  return j;
+}
+
 nlohmann::json json_of(const Model& m, const Mode& mode) {
-  nlohmann::json bodies = nlohmann::json::array();
-  for (int b = 0; b < m.bodies; ++b)
-    bodies.push_back({{"name", m.body_name[b]}, {"shape", mode.body_shape[b]}, {"energy_share", mode.body_energy[b]}});
+  nlohmann::json j{{"frequency_hz", mode.frequency_hz},
+                   {"energy", energy_json(m, mode.energy)},
+                   {"shape", {{"arm", mode.arm_shape}, {"bodies", nlohmann::json::object()}}}};
+  for (int b = 0; b < m.bodies; ++b) j["shape"]["bodies"][m.body_name[b]] = mode.body_shape[b];
+  return j;
+}
+
+nlohmann::json json_of(const Model& m, const DampedMode& mode) {
   return {{"frequency_hz", mode.frequency_hz},
-          {"damping_ratio", finite(mode.damping_ratio)},
-          {"bodies", bodies},
-          {"arm", {{"shape", mode.arm_shape}, {"energy_share", mode.arm_energy}}},
-          {"belt", {{"energy_share", mode.belt_energy}}}};
+          {"damping_ratio", mode.damping_ratio},
+          {"energy", energy_json(m, mode.energy)}};
 }
 
 nlohmann::json json_of(const Model& m, const Modes& modes) {
@@ -138,8 +149,7 @@ nlohmann::json json_of(const Model& m, const Modes& modes) {
   for (const ArmModes& arm : modes.arms) {
     auto& list = j["rotational"][std::string(name_of(arm.arm))] = nlohmann::json::array();
     auto& damped = j["damped"][std::string(name_of(arm.arm))] = nlohmann::json::array();
-    for (const DampedMode& mode : arm.damped)
-      damped.push_back({{"frequency_hz", mode.frequency_hz}, {"damping_ratio", mode.damping_ratio}});
+    for (const DampedMode& mode : arm.damped) damped.push_back(json_of(m, mode));
     for (const Mode& mode : arm.modes) list.push_back(json_of(m, mode));
   }
   for (const SpanModes& s : modes.spans)
@@ -154,8 +164,7 @@ nlohmann::json json_of(const Model& m, const Modes& modes) {
 nlohmann::json json_of(const Campbell& diagram) {
   nlohmann::json j{{"crank_rpm", diagram.crank_rpm}, {"curves", nlohmann::json::array()}};
   for (const FrequencyCurve& c : diagram.curves)
-    j["curves"].push_back(
-        {{"name", c.name}, {"damping_ratio", finite(c.damping_ratio)}, {"frequency_hz", c.frequency_hz}});
+    j["curves"].push_back({{"name", c.name}, {"damping_ratio", c.damping_ratio}, {"frequency_hz", c.frequency_hz}});
   return j;
 }
 
@@ -166,32 +175,46 @@ nlohmann::json json_of(const std::vector<Crossing>& found) {
                  {"order", c.order},
                  {"crank_rpm", c.crank_rpm},
                  {"mode", c.mode},
-                 {"damping_ratio", finite(c.damping_ratio)},
+                 {"damping_ratio", c.damping_ratio},
                  {"near_range", c.near ? nlohmann::json(*c.near) : nlohmann::json(nullptr)}});
   return j;
 }
 
-// Rows: modes, columns: operating points; the last column says what moves, at the last point.
-void print_rotational(const Model& m, const std::vector<Modes>& points, std::size_t arm) {
-  std::size_t count = 0;
-  for (const Modes& p : points) count = std::max(count, p.arms[arm].modes.size());
+// Rows: modes, columns: operating points; the last columns are of the last point.
+void print_rotational(const Model& m, const std::vector<Modes>& points, std::size_t arm, bool damped) {
   const ArmState state = points.front().arms[arm].arm;
-  std::vector<std::string> header{state == ArmState::none ? std::string("rotational mode, Hz")
-                                                          : fmt::format("rotational, arm {}, Hz", name_of(state))};
-  for (const Modes& p : points) header.push_back(p.range.name);
-  header.insert(header.end(), {"damping ratio", "moving energy in " + points.back().range.name});
+  const std::string where = state == ArmState::none ? "" : fmt::format(", arm {}", name_of(state));
+  std::vector<std::string> header{fmt::format("rotational{}{}, Hz", where, damped ? "" : ", without dampers")};
+  std::size_t count = 0;
+  for (const Modes& p : points) {
+    header.push_back(p.range.name);
+    count = std::max(count, damped ? p.arms[arm].damped.size() : p.arms[arm].modes.size());
+  }
+  if (damped) header.push_back("damping ratio");
+  header.push_back("moving energy in " + points.back().range.name);
   Table table(header);
   for (std::size_t k = 0; k < count; ++k) {
-    std::vector<std::string> row{fmt::format("mode {}", k + 1)};
-    for (const Modes& p : points)
-      row.push_back(k < p.arms[arm].modes.size() ? hertz(p.arms[arm].modes[k].frequency_hz) : "-");
-    const auto& last = points.back().arms[arm].modes;
-    const bool has = k < last.size();
-    row.push_back(has && std::isfinite(last[k].damping_ratio) ? fmt::format("{:.3f}", last[k].damping_ratio) : "-");
-    row.push_back(has ? describe(m, last[k]) : "-");
+    std::vector<std::string> row{fmt::format("{} {}", damped ? "rotational" : "mode", k + 1)};
+    std::string ratio = "-", who = "-";
+    for (const Modes& p : points) {
+      const ArmModes& at = p.arms[arm];
+      ratio = who = "-";
+      if (damped && k < at.damped.size()) {
+        row.push_back(hertz(at.damped[k].frequency_hz));
+        ratio = fmt::format("{:.3f}", at.damped[k].damping_ratio);
+        who = describe(m, at.damped[k].energy);
+      } else if (!damped && k < at.modes.size()) {
+        row.push_back(hertz(at.modes[k].frequency_hz));
+        who = describe(m, at.modes[k].energy);
+      } else {
+        row.push_back("-");
+      }
+    }
+    if (damped) row.push_back(ratio);
+    row.push_back(who);
     table.row(row);
   }
-  fmt::print("{}\n", table.text(0));
+  if (count > 0) fmt::print("{}\n", table.text(0));
 }
 
 void print_transverse(const std::vector<Modes>& points) {
@@ -202,28 +225,6 @@ void print_transverse(const std::vector<Modes>& points) {
     std::vector<std::string> row{points.front().spans[k].name};
     for (const Modes& p : points)
       row.push_back(fmt::format("{:.1f} {:.1f}", p.spans[k].frequency_hz[0], p.spans[k].frequency_hz[1]));
-    table.row(row);
-  }
-  fmt::print("{}\n", table.text(0));
-}
-
-// Vibrations with the dampers in: dampers near or above critical leave fewer of them than there are undamped modes.
-void print_damped(const std::vector<Modes>& points, std::size_t arm) {
-  std::size_t count = 0;
-  for (const Modes& p : points) count = std::max(count, p.arms[arm].damped.size());
-  if (count == 0) return;
-  const ArmState state = points.front().arms[arm].arm;
-  std::vector<std::string> header{fmt::format("with dampers{}, Hz and ratio",
-                                              state == ArmState::none ? "" : ", arm " + std::string(name_of(state)))};
-  for (const Modes& p : points) header.push_back(p.range.name);
-  Table table(header);
-  for (std::size_t k = 0; k < count; ++k) {
-    std::vector<std::string> row{fmt::format("vibration {}", k + 1)};
-    for (const Modes& p : points) {
-      const auto& damped = p.arms[arm].damped;
-      row.push_back(k < damped.size() ? fmt::format("{:.2f} {:.3f}", damped[k].frequency_hz, damped[k].damping_ratio)
-                                      : "-");
-    }
     table.row(row);
   }
   fmt::print("{}\n", table.text(0));
@@ -253,7 +254,7 @@ void print_crossings(const std::vector<Crossing>& found, const SceneSpec& scene)
   fmt::print(
       "{} crossings with orders 0.5 to 9 over the speeds of the ranges, {} of them within 5 % of a range; listed are "
       "the "
-      "{} of these\nwhose order the driver's speed has and whose modal damping ratio is below 0.3; --json lists all\n",
+      "{} of these\nwhose order the driver's speed has and whose damping ratio is below 0.3; --json lists all\n",
       found.size(), near, printed);
 }
 
@@ -306,8 +307,8 @@ int run_modes(const CommandOptions& o) {
     if (!nothing.empty()) fmt::print("{}\n", nothing);
     if (!points.empty()) {
       for (std::size_t arm = 0; arm < points.front().arms.size(); ++arm) {
-        print_rotational(m, points, arm);
-        print_damped(points, arm);
+        print_rotational(m, points, arm, true);
+        print_rotational(m, points, arm, false);
       }
       print_transverse(points);
       print_doubts(points, m);

@@ -58,7 +58,7 @@ struct Link {
   int from, to;
   double ratio;  // |speed of `to`| / |speed of `from`|
   double sense;  // +1 same, -1 opposite
-  std::string name;
+  std::string name, key;
 };
 
 void spread(Model& m, const std::vector<Link>& links) {
@@ -85,10 +85,11 @@ void compile_bodies(Model& m, std::string_view file) {
   m.bodies = static_cast<int>(m.body_name.size());
   std::vector<Link> links;
   for (const auto& s : m.scene.torsional_spring)
-    links.push_back({body_index(m, s.from), body_index(m, s.to), 1, 1, "torsional spring " + s.name});
+    links.push_back({body_index(m, s.from), body_index(m, s.to), 1, 1, "torsional spring " + s.name,
+                     "torsional_spring." + s.name + ".from"});
   for (const auto& g : m.scene.gear_pair)
     links.push_back({body_index(m, g.pinion), body_index(m, g.gear), double(g.pinion_teeth) / g.gear_teeth, -1,
-                     "gear pair " + g.name});
+                     "gear pair " + g.name, "gear_pair." + g.name + ".pinion"});
   // Senses and speed ratios spread from the pulleys over the links; a train that no pulley reaches turns as the drive
   // does at its first body.
   m.sense.resize(m.bodies, 0);
@@ -105,7 +106,7 @@ void compile_bodies(Model& m, std::string_view file) {
     }
   for (const auto& l : links)
     if (m.sense[l.to] != l.sense * m.sense[l.from])
-      throw BadInput({Problem{std::string(file), 0, l.name,
+      throw BadInput({Problem{std::string(file), 0, l.key,
                               fmt::format("{} joins {} and {}, which the rest of the drive turns in {} senses", l.name,
                                           m.body_name[l.from], m.body_name[l.to], l.sense > 0 ? "opposite" : "equal"),
                               "ends that turn alike for a spring, opposite for gears"}});

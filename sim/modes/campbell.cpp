@@ -13,7 +13,6 @@ namespace beltlife {
 namespace {
 
 constexpr double near_share = 0.05;
-constexpr double standing_hz = 0.1;  // slower than this is a body that turns freely
 
 std::string name_of_rotational(ArmState arm, std::size_t number) {
   const std::string name = fmt::format("rotational {}", number);
@@ -23,18 +22,18 @@ std::string name_of_rotational(ArmState arm, std::size_t number) {
 std::vector<FrequencyCurve> rotational_curves(const std::vector<Modes>& points, double highest_hz) {
   std::vector<FrequencyCurve> curves;
   for (std::size_t a = 0; a < points.front().arms.size(); ++a) {
-    std::size_t count = points.front().arms[a].modes.size();
-    for (const Modes& p : points) count = std::min(count, p.arms[a].modes.size());
+    std::size_t count = points.front().arms[a].damped.size();
+    for (const Modes& p : points) count = std::min(count, p.arms[a].damped.size());
     for (std::size_t k = 0; k < count; ++k) {
       const ArmState arm = points.front().arms[a].arm;
       FrequencyCurve curve{name_of_rotational(arm, k + 1), arm, {}, 0};
-      curve.damping_ratio = std::nan("");
+      curve.damping_ratio = points.front().arms[a].damped[k].damping_ratio;
       for (const Modes& p : points) {
-        curve.frequency_hz.push_back(p.arms[a].modes[k].frequency_hz);
-        curve.damping_ratio = std::fmin(curve.damping_ratio, p.arms[a].modes[k].damping_ratio);
+        curve.frequency_hz.push_back(p.arms[a].damped[k].frequency_hz);
+        curve.damping_ratio = std::min(curve.damping_ratio, p.arms[a].damped[k].damping_ratio);
       }
-      const auto [low, high] = std::minmax_element(curve.frequency_hz.begin(), curve.frequency_hz.end());
-      if (*low<highest_hz&& * high> standing_hz) curves.push_back(std::move(curve));
+      if (*std::min_element(curve.frequency_hz.begin(), curve.frequency_hz.end()) < highest_hz)
+        curves.push_back(std::move(curve));
     }
   }
   return curves;
@@ -70,17 +69,20 @@ Campbell campbell(const Model& model, int points, const ModesOptions& options) {
       ranges.begin(), ranges.end(), [](const RangeSpec& a, const RangeSpec& b) { return a.crank_rpm < b.crank_rpm; });
   const double first = (1 - near_share) * slow->crank_rpm, last = (1 + near_share) * fast->crank_rpm;
   if (last <= first) return diagram;  // nothing turns
-  ModesOptions undamped = options;
-  undamped.damped_basis = 0;
+  const double highest_hz = default_orders().back() * last / 60;
   std::vector<Modes> at;
   for (int i = 0; i < points; ++i) {
     diagram.crank_rpm.push_back(first + (last - first) * i / (points - 1));
-    at.push_back(solve_modes(model, {"", diagram.crank_rpm.back(), 0}, undamped));
-    std::string mesh;
-    for (const bool engaged : at.back().loop.gear_engaged) mesh += engaged ? '1' : '0';
-    diagram.meshes.push_back(std::move(mesh));
+    at.push_back(solve_modes(model, {"", diagram.crank_rpm.back(), 0}, options));
+    std::string state;
+    for (const bool engaged : at.back().loop.gear_engaged) state += engaged ? '1' : '0';
+    for (const ArmModes& arm : at.back().arms)
+      state += fmt::format(" {}", std::count_if(arm.damped.begin(), arm.damped.end(), [&](const DampedMode& mode) {
+                             return mode.frequency_hz < highest_hz;
+                           }));
+    diagram.states.push_back(std::move(state));
   }
-  diagram.curves = rotational_curves(at, default_orders().back() * last / 60);
+  diagram.curves = rotational_curves(at, highest_hz);
   for (FrequencyCurve& curve : transverse_curves(at)) diagram.curves.push_back(std::move(curve));
   return diagram;
 }
@@ -90,7 +92,7 @@ std::vector<Crossing> crossings(const Campbell& diagram, const std::vector<Range
   for (const FrequencyCurve& curve : diagram.curves)
     for (const double order : default_orders())
       for (std::size_t i = 0; i + 1 < diagram.crank_rpm.size(); ++i) {
-        if (diagram.meshes[i] != diagram.meshes[i + 1]) continue;
+        if (diagram.states[i] != diagram.states[i + 1]) continue;
         const double n0 = diagram.crank_rpm[i], n1 = diagram.crank_rpm[i + 1];
         const double above0 = curve.frequency_hz[i] - order * n0 / 60;
         const double above1 = curve.frequency_hz[i + 1] - order * n1 / 60;

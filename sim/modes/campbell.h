@@ -14,18 +14,19 @@ struct FrequencyCurve {
   std::string name;                  ///< "rotational 2, arm free", "transverse 1 of crank-idler"
   std::optional<ArmState> arm;       ///< of a rotational mode; none: transverse
   std::vector<double> frequency_hz;  ///< at each crank speed
-  double damping_ratio = 0;          ///< modal, the least over these speeds; 0 of a span
+  double damping_ratio = 0;          ///< the least over these speeds; 0 of a span
 };
 
 struct Campbell {
-  std::vector<double> crank_rpm;    ///< increasing
-  std::vector<std::string> meshes;  ///< at each speed: which gear pairs are engaged, so that a jump shows as one
+  std::vector<double> crank_rpm;  ///< increasing
+  std::vector<std::string>
+      states;  ///< at each speed: teeth engaged, vibrations counted; a change is a jump of the curves
   std::vector<FrequencyCurve> curves;
 };
 
-/// From 5 % below the slowest range to 5 % above the fastest. Empty without ranges or pulleys. Rotational modes that
-/// lie above the highest order everywhere are left out, and those at 0 Hz.
-Campbell campbell(const Model& model, int points = 41, const ModesOptions& options = {});
+/// From 5 % below the slowest range to 5 % above the fastest. Empty without ranges or pulleys. Rotational modes
+/// are the damped ones; those that lie above the highest order everywhere are left out.
+Campbell campbell(const Model& model, int points = 31, const ModesOptions& options = {});
 
 /// An order of the crank's rotation meets a natural frequency.
 struct Crossing {

@@ -12,32 +12,32 @@
 namespace beltlife {
 namespace {
 
-// `x` is scaled to unit modal mass. A row's share of the kinetic energy is x_i (M x)_i; they sum to 1.
+// A row's share is Re conj(x_i) (M x)_i; `x` real or complex, at any scale.
+template <class Vector>
+EnergyShares energy_of(const Model& m, const LinearDrive& d, const Vector& x) {
+  const Eigen::VectorXd all = x.conjugate().cwiseProduct(d.mass * x).real();
+  const Eigen::VectorXd share = all / all.sum();
+  EnergyShares energy{std::vector<double>(m.bodies, 0.0), 0, share.tail(share.size() - d.belt_row).sum()};
+  for (int b = 0; b < m.bodies; ++b)
+    if (const int row = d.body_row[b]; row >= 0) energy.body[b] = share[row];
+  if (d.arm_row >= 0) energy.arm = share[d.arm_row];
+  return energy;
+}
+
 Mode mode_of(const Model& m, const LoopEstimate& loop, const LinearDrive& d, double omega2, const Eigen::VectorXd& x) {
-  Mode mode;
-  const double omega = std::sqrt(std::max(omega2, 0.0));
-  mode.frequency_hz = omega / (2 * std::numbers::pi);
-  // Rounding leaves some 1e-5 of the largest frequency where exact arithmetic leaves none.
-  mode.damping_ratio = mode.frequency_hz > 0.01 ? x.dot(d.damping * x) / (2 * omega) : std::nan("");
-  const Eigen::VectorXd energy = x.cwiseProduct(d.mass * x);
+  Mode mode{std::sqrt(std::max(omega2, 0.0)) / (2 * std::numbers::pi), {}, 0, energy_of(m, d, x)};
   mode.body_shape.assign(m.bodies, 0.0);
-  mode.body_energy.assign(m.bodies, 0.0);
   double largest = 0;
   const auto note = [&](double shape) {
     if (std::abs(shape) > std::abs(largest)) largest = shape;
     return shape;
   };
   for (int b = 0; b < m.bodies; ++b)
-    if (const int row = d.body_row[b]; row >= 0) {
-      mode.body_shape[b] = note(m.sense[b] * x[row] / m.speed_ratio[b]);
-      mode.body_energy[b] = energy[row];
-    }
+    if (const int row = d.body_row[b]; row >= 0) mode.body_shape[b] = note(m.sense[b] * x[row] / m.speed_ratio[b]);
   if (d.arm_row >= 0) {
     const Circle& c = loop.route.circles[m.tensioner.pulley];
     mode.arm_shape = note(x[d.arm_row] * std::hypot(c.x - m.tensioner.pivot_x, c.y - m.tensioner.pivot_y));
-    mode.arm_energy = energy[d.arm_row];
   }
-  mode.belt_energy = energy.tail(energy.size() - d.belt_row).sum();
   if (largest != 0) {
     for (double& shape : mode.body_shape) shape /= largest;
     mode.arm_shape /= largest;
@@ -45,21 +45,27 @@ Mode mode_of(const Model& m, const LoopEstimate& loop, const LinearDrive& d, dou
   return mode;
 }
 
-// In the basis of the lowest undamped modes (unit modal mass): z' = [0 1; -W^2 -X^T C X] z.
-std::vector<DampedMode> damped_modes(const Eigen::VectorXd& omega2, const Eigen::MatrixXd& damping, double highest_hz) {
+// In the basis x of the lowest undamped modes (unit modal mass, frequencies W), for z = (W q, q'):
+// z' = [0 W; -W -x^T C x] z.
+std::vector<DampedMode> damped_modes(const Model& m, const LinearDrive& d, const Eigen::VectorXd& omega2,
+                                     const Eigen::MatrixXd& x, double highest_hz) {
   const Eigen::Index n = omega2.size();
+  const Eigen::VectorXd omega = omega2.cwiseMax(0.0).cwiseSqrt();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  a.topRightCorner(n, n).setIdentity();
-  a.bottomLeftCorner(n, n) = (-omega2).asDiagonal();
-  a.bottomRightCorner(n, n) = -damping;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
+  a.topRightCorner(n, n) = omega.asDiagonal();
+  a.bottomLeftCorner(n, n) = (-omega).asDiagonal();
+  a.bottomRightCorner(n, n) = -x.transpose() * d.damping * x;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a);
   std::vector<DampedMode> modes;
   if (solver.info() != Eigen::Success) return modes;
-  for (const std::complex<double>& s : solver.eigenvalues()) {
+  for (Eigen::Index k = 0; k < 2 * n; ++k) {
+    const std::complex<double> s = solver.eigenvalues()[k];
     const double hz = s.imag() / (2 * std::numbers::pi);
-    if (hz > 0.1 && hz <= highest_hz) modes.push_back({hz, -s.real() / std::abs(s)});
+    if (hz < 0.1 || hz > highest_hz) continue;
+    const Eigen::VectorXcd velocity = x * solver.eigenvectors().col(k).tail(n);
+    modes.push_back({hz, -s.real() / std::abs(s), energy_of(m, d, velocity)});
   }
-  std::sort(modes.begin(), modes.end(), [](const auto& x, const auto& y) { return x.frequency_hz < y.frequency_hz; });
+  std::sort(modes.begin(), modes.end(), [](const auto& p, const auto& q) { return p.frequency_hz < q.frequency_hz; });
   return modes;
 }
 
@@ -74,10 +80,8 @@ ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, cons
     modes.modes.push_back(std::move(mode));
   }
   const Eigen::Index basis = std::min<Eigen::Index>(options.damped_basis, solver.eigenvalues().size());
-  if (basis > 0) {
-    const auto x = solver.eigenvectors().leftCols(basis);
-    modes.damped = damped_modes(solver.eigenvalues().head(basis), x.transpose() * d.damping * x, options.highest_hz);
-  }
+  modes.damped =
+      damped_modes(m, d, solver.eigenvalues().head(basis), solver.eigenvectors().leftCols(basis), options.highest_hz);
   return modes;
 }
 
@@ -105,11 +109,11 @@ Modes solve_modes(const Model& m, const RangeSpec& range, const ModesOptions& op
   return modes;
 }
 
-std::string describe(const Model& m, const Mode& mode) {
+std::string describe(const Model& m, const EnergyShares& energy) {
   std::vector<std::pair<double, std::string>> shares;
-  for (int b = 0; b < m.bodies; ++b) shares.emplace_back(mode.body_energy[b], m.body_name[b]);
-  shares.emplace_back(mode.arm_energy, "tensioner arm");
-  shares.emplace_back(mode.belt_energy, "belt");
+  for (int b = 0; b < m.bodies; ++b) shares.emplace_back(energy.body[b], m.body_name[b]);
+  shares.emplace_back(energy.arm, "tensioner arm");
+  shares.emplace_back(energy.belt, "belt");
   std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(shares.size(), 3) && shares[i].first >= 0.1; ++i)

@@ -10,17 +10,21 @@
 
 namespace beltlife {
 
-/// One rotational mode. The shape is scaled so that its largest entry is 1, and in one measure for all: the belt travel
-/// to which a turn amounts. A body's turn in rad is shape x speed_ratio (rad/m) x its running sense, the arm's turn is
-/// shape / (distance from pivot to pulley centre).
+/// Who moves: shares of a mode's kinetic energy, which sum to 1.
+struct EnergyShares {
+  std::vector<double> body;  ///< per body
+  double arm = 0;
+  double belt = 0;
+};
+
+/// One rotational mode without damping. The shape is scaled so that its largest entry is 1, and in one measure for all:
+/// the belt travel to which a turn amounts. A body's turn in rad is shape x speed_ratio (rad/m) x its running sense,
+/// the arm's turn is shape / (distance from pivot to pulley centre).
 struct Mode {
   double frequency_hz = 0;
-  double damping_ratio = 0;         ///< from the diagonal of the modal damping, good where small; NaN at 0 Hz
-  std::vector<double> body_shape;   ///< per body; 0 for one that does not vibrate
-  double arm_shape = 0;             ///< of the tensioner pulley's centre, positive counterclockwise
-  std::vector<double> body_energy;  ///< per body: share of the kinetic energy
-  double arm_energy = 0;            ///< likewise
-  double belt_energy = 0;           ///< likewise; all shares sum to 1
+  std::vector<double> body_shape;  ///< per body; 0 for one that does not vibrate
+  double arm_shape = 0;            ///< of the tensioner pulley's centre, positive counterclockwise
+  EnergyShares energy;
 };
 
 /// A vibration of the drive with its viscous dampers: a pair of complex eigenvalues. Dampers so strong that they all
@@ -28,6 +32,7 @@ struct Mode {
 struct DampedMode {
   double frequency_hz = 0;   ///< of the decaying vibration, Im / 2 pi
   double damping_ratio = 0;  ///< -Re / modulus
+  EnergyShares energy;
 };
 
 struct ArmModes {
@@ -56,7 +61,7 @@ struct Modes {
 
 struct ModesOptions {
   double highest_hz = 1000;  ///< rotational modes above are left out
-  int damped_basis = 40;     ///< undamped modes, lowest first, that the damped ones are made of; 0: leave those out
+  int damped_basis = 40;     ///< undamped modes, lowest first, that the damped ones are made of
   LinearOptions linear;
 };
 
@@ -64,6 +69,6 @@ struct ModesOptions {
 Modes solve_modes(const Model& model, const RangeSpec& range, const ModesOptions& options = {});
 
 /// The bodies, arm or belt that hold most of a mode's kinetic energy, e.g. "turbine 62 %, arm 20 %".
-std::string describe(const Model& model, const Mode& mode);
+std::string describe(const Model& model, const EnergyShares& energy);
 
 }  // namespace beltlife

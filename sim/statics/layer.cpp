@@ -34,8 +34,8 @@ double slope(double t) { return -response(t).second - (t >= 0 ? 1 : 0); }
 
 PassLayer pass_layer(double softness, double arc) {
   // A longer arc only adds uniform pressure between its two layers; a shorter one is a kink under a point load.
-  constexpr double longest = 8, step = 0.1, margin = 1.5;
-  const double b = std::clamp(arc, 0.02, longest), begin = -0.5 * b - margin;
+  constexpr double longest = 8, margin = 1.5;
+  const double b = std::clamp(arc, 0.1, longest), begin = -0.5 * b - margin, step = b < 1 ? 0.05 : 0.1;
   const int m = static_cast<int>((b + 2 * margin) / step) + 1;
   const auto at = [&](int i) { return begin + i * step; };
 

@@ -103,9 +103,13 @@ class Balance {
       p.layer_in.push_back(layer_of(p.taut_in[k], p.rate));
       p.layer_out.push_back(layer_of(p.taut_out[k], p.rate));
       const PassLayer& layer = layers_[k];
+      // Chords of one element turn about the pulley at a mean distance less than that of their nodes.
+      const double chord = 1 - std::pow(b.element_length / p.radius[k], 2) / 24;
       const bool soft = b.bending_damping > 0;
-      p.arm_in.push_back(soft ? big + layer.offset_in * p.layer_in[k] * p.layer_in[k] / big : p.radius[k]);
-      p.arm_out.push_back(soft ? big + layer.offset_out * p.layer_out[k] * p.layer_out[k] / big : p.radius[k]);
+      const double in = soft ? big + layer.offset_in * p.layer_in[k] * p.layer_in[k] / big : p.radius[k];
+      const double out = soft ? big + layer.offset_out * p.layer_out[k] * p.layer_out[k] / big : p.radius[k];
+      p.arm_in.push_back(in * chord);
+      p.arm_out.push_back(out * chord);
     }
     p.direction.resize(n);
     p.span_length.resize(n);

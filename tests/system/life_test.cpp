@@ -84,5 +84,14 @@ TEST_F(InFolder, LifeWritesNothingIfAnySceneIsBad) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(InFolder, ALifeOfTwoScenesOfOneNameRefusesToOverwriteOneWithTheOther) {
+  fs::create_directory(folder / "other");
+  fs::copy_file(scene("two_pulley"), folder / "other" / "two_pulley.toml");
+  const Answer answer = run({"life", scene("two_pulley"), "other/two_pulley.toml", "--out", "r.h5"});
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.err.find("would overwrite"), std::string::npos) << answer.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"other"});
+}
+
 }  // namespace
 }  // namespace beltlife::system_test

@@ -107,5 +107,12 @@ TEST(SceneWithoutRanges, SettlesAndHoldsAtRest) {
   EXPECT_EQ(plan.profile.speed(1.0), 0);
 }
 
+TEST(MeasuredSpeed, CountsInTheWindowsInsteadOfTheSpeedThatTheRangeIsStatedAt) {
+  const SceneSpec scene = baseline();
+  const MeasuredSpeed measured{{0, 1, 30}, {0, 900, 900}};
+  for (const RunPlan& plan : {plan_profile(scene, &measured), plan_range(scene, scene.range[2], &measured)})
+    for (const Window& window : plan.windows) EXPECT_NEAR(window.crank_rpm, 900, 1e-9) << window.range;
+}
+
 }  // namespace
 }  // namespace beltlife

@@ -78,6 +78,7 @@ TEST(ReadScene, NamesLineKeyFaultAndRemedyOfEachMistake) {
     {"body = \"crank\"", "body = \"krank\"", "krank", "driver.body", "did you mean 'crank'?", "crank, idler_2, rotor"},
     {"y_mm = 0\n", "y_mm = 0\nlocked = true\n", "body = \"crank\"", "driver.body", "'crank' is locked", "can turn"},
     {"duty_share = 0.25", "duty_share = 0.24", "[[range]]", "range", "sum to 0.99", "1"},
+    {"evaluate_s = 1", "evaluate_s = 0.005", "evaluate_s", "profile.evaluate_s", "hold 5 samples at 1000 Hz", "at least 8"},
     {"evaluate_s = 1", "evaluate_s = 2.5", "evaluate_s", "profile.evaluate_s", "longer than the hold", "hold_s"},
     {"_x_mm = 450\npivot_y_mm = 50", "_x_mm = 500\npivot_y_mm = 0", "_x_mm = 500\n", "tensioner.pivot_x_mm", "pivot",
      ""},

@@ -197,6 +197,22 @@ TEST(LoopEstimate, BalancesTheArmAndFillsThePath) {
   EXPECT_NEAR(e.route.length, m.belt.unstretched_length * (1 + e.tension[0] / m.belt.axial_stiffness), 1e-9);
 }
 
+// One damped oscillator: the frequency falls by sqrt(1 - zeta^2), zeta = c / (2 sqrt(k J)).
+TEST(DampedModes, OfAShaftWithADamperIsTheDampedOscillator) {
+  SceneSpec scene = drives::two_pulleys(128, 400, 100, 100, 500);
+  scene.belt.axial_damping_n_s = 0;
+  scene.body = {body("rotor", 0.002)};
+  scene.torsional_spring = {{"shaft", "rotor", "driver", 1500, 0.6}};  // the driver stands
+  const double zeta = 0.6 / (2 * std::sqrt(1500 * 0.002));
+  const double closed = std::sqrt((1 - zeta * zeta) * 1500 / 0.002) / (2 * pi);
+  for (const DampedMode& mode : solve_modes(compile(scene), {"rest", 0, 0}).arms.at(0).damped)
+    if (std::abs(mode.frequency_hz - closed) < 1e-4 * closed) {
+      EXPECT_NEAR(mode.damping_ratio, zeta, 1e-6);
+      return;
+    }
+  ADD_FAILURE() << "no vibration at " << closed << " Hz";
+}
+
 // The torque table drives at the drive pulley, the crank takes it up: the spans between differ by torque / radius.
 TEST(LoopEstimate, DistributesTheTorqueRoundTheLoop) {
   const Model m = compile(drives::shipped("baseline"));
