@@ -60,10 +60,10 @@ std::string map_script(const Model& m, const Campbell& diagram, const std::vecto
   for (const RangeSpec& range : m.scene.range) {
     const std::string at = fmt::format("{:g}", range.crank_rpm);
     s += fmt::format("set arrow from {0},0 to {0},{1} nohead lc rgb '#dddddd' lw 6 back\n", at, top);
-    if (labelled.find("<" + at + ">") == labelled.npos)
+    if (labelled.find(fmt::format("<{}>", at)) == labelled.npos)
       s += fmt::format("set label {} at {},{} center offset 0,0.7 font ',11' tc rgb '#555555'\n", quoted(range.name),
                        at, top);
-    labelled += "<" + at + ">";
+    labelled += fmt::format("<{}>", at);
   }
   for (const double order : default_orders()) {
     s += fmt::format("set arrow from {},{} to {},{} nohead lc rgb '#999999' lw 0.6 back\n", first, order * first / 60,
@@ -97,7 +97,7 @@ void draw_map(const std::string& file, const std::string& script) {
   std::FILE* gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
   int code = -1;
   if (gnuplot) {
-    const std::string whole = "set output " + quoted(part) + "\n" + script;
+    const std::string whole = fmt::format("set output {}\n{}", quoted(part), script);
     const bool sent = std::fwrite(whole.data(), 1, whole.size(), gnuplot) == whole.size();
     code = pclose(gnuplot);
     if (!sent) code = -1;

@@ -15,8 +15,8 @@ namespace {
 constexpr double near_share = 0.05;
 
 std::string name_of_rotational(ArmState arm, std::size_t number) {
-  const std::string name = fmt::format("rotational {}", number);
-  return arm == ArmState::none ? name : name + ", arm " + std::string(name_of(arm));
+  return arm == ArmState::none ? fmt::format("rotational {}", number)
+                               : fmt::format("rotational {}, arm {}", number, name_of(arm));
 }
 
 std::vector<FrequencyCurve> rotational_curves(const std::vector<Modes>& points, double highest_hz) {

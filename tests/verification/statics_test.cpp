@@ -42,7 +42,8 @@ void compare(const std::string& name, const std::string& range, int elements, do
     EXPECT_NEAR(s.pulleys[p].hub_load_n, q.pulleys[p].hub_load, allowed) << s.pulleys[p].name;
     const double direction = std::atan2(q.pulleys[p].hub_y, q.pulleys[p].hub_x) * 180 / pi;
     EXPECT_NEAR(std::remainder(s.pulleys[p].hub_direction_deg - direction, 360), 0, 3) << s.pulleys[p].name;
-    EXPECT_NEAR(s.pulleys[p].speed_rpm_mean / (q.pulleys[p].speed * 30 / pi), 1, 0.002) << s.pulleys[p].name;
+    // Where in the entry peak, which sinks deeper than T' l0/R, the belt begins to stick is not modelled.
+    EXPECT_NEAR(s.pulleys[p].speed_rpm_mean / (q.pulleys[p].speed * 30 / pi), 1, 0.004) << s.pulleys[p].name;
   }
   const auto lost = [&](Energy e) { return s.power_w[static_cast<std::size_t>(e)]; };
   drives::report("losses, W",
