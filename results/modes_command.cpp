@@ -195,10 +195,11 @@ void print_rotational(const Model& m, const std::vector<Modes>& points, std::siz
   Table table(header);
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<std::string> row{fmt::format("{} {}", damped ? "rotational" : "mode", k + 1)};
-    std::string ratio = "-", who = "-";
+    std::string ratio, who;  // of the last point
     for (const Modes& p : points) {
       const ArmModes& at = p.arms[arm];
-      ratio = who = "-";
+      ratio.assign(1, '-');
+      who = ratio;
       if (damped && k < at.damped.size()) {
         row.push_back(hertz(at.damped[k].frequency_hz));
         ratio = fmt::format("{:.3f}", at.damped[k].damping_ratio);

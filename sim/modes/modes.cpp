@@ -12,6 +12,8 @@
 namespace beltlife {
 namespace {
 
+constexpr double resonant = std::numbers::sqrt2 / 2;  // an oscillator damped more has no peak at any frequency
+
 // A row's share is Re conj(x_i) (M x)_i; `x` real or complex, at any scale.
 template <class Vector>
 EnergyShares energy_of(const Model& m, const LinearDrive& d, const Vector& x) {
@@ -61,15 +63,17 @@ std::vector<DampedMode> damped_modes(const Model& m, const LinearDrive& d, const
   for (Eigen::Index k = 0; k < 2 * n; ++k) {
     const std::complex<double> s = solver.eigenvalues()[k];
     const double hz = s.imag() / (2 * std::numbers::pi);
-    if (hz < 0.1 || hz > highest_hz) continue;
+    const double ratio = -s.real() / std::abs(s);
+    if (hz < 0.1 || hz > highest_hz || ratio > resonant) continue;
     const Eigen::VectorXcd velocity = x * solver.eigenvectors().col(k).tail(n);
-    modes.push_back({hz, -s.real() / std::abs(s), energy_of(m, d, velocity)});
+    modes.push_back({hz, ratio, energy_of(m, d, velocity)});
   }
   std::sort(modes.begin(), modes.end(), [](const auto& p, const auto& q) { return p.frequency_hz < q.frequency_hz; });
   return modes;
 }
 
 ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, const ModesOptions& options) {
+  Eigen::setNbThreads(1);  // threads are for evaluations; here they would only change the order of sums
   const LinearDrive d = linearise(m, loop, arm, options.linear);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(d.stiffness, d.mass);
   ArmModes modes{arm, {}, {}};

@@ -38,7 +38,7 @@ struct DampedMode {
 struct ArmModes {
   ArmState arm = ArmState::none;
   std::vector<Mode> modes;         ///< lowest first; a mode at 0 Hz turns freely
-  std::vector<DampedMode> damped;  ///< lowest first; without what does not vibrate
+  std::vector<DampedMode> damped;  ///< lowest first; without those damped so much (ratio 0.71) that they have no peak
 };
 
 /// First two transverse frequencies of a free span: a string with fixed ends through which the belt travels,

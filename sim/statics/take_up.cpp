@@ -62,6 +62,7 @@ TakeUpRow end_of_reach(const Model& m, double sense) {
     }
     TakeUpRow last = row_at(m, good);
     last.reason = beyond.reason;
+    last.tension = std::max(last.tension, 0.0);  // bisected to the spring's end
     return last;
   }
   TakeUpRow last = row_at(m, good);
