@@ -73,7 +73,6 @@ std::vector<DampedMode> damped_modes(const Model& m, const LinearDrive& d, const
 }
 
 ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, const ModesOptions& options) {
-  Eigen::setNbThreads(1);  // threads are for evaluations; here they would only change the order of sums
   const LinearDrive d = linearise(m, loop, arm, options.linear);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(d.stiffness, d.mass);
   ArmModes modes{arm, {}, {}};

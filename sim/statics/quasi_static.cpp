@@ -234,15 +234,16 @@ bool newton(const Balance& balance, Eigen::VectorXd& x) {
   return r.cwiseAbs().maxCoeff() < 1e-7;
 }
 
+// Tensions and layers in turn, until the tensions stay.
 bool solve(Balance& balance, Eigen::VectorXd& x) {
-  for (int pass = 0; pass < 6; ++pass) {
+  for (int pass = 0; pass < 20; ++pass) {
     if (!newton(balance, x)) return false;
     const Eigen::VectorXd before = x;
     balance.update_layers(balance.at(x));
     if (!newton(balance, x)) return false;
     if ((x - before).cwiseAbs().maxCoeff() < 0.05) return true;  // newtons
   }
-  return true;
+  return false;
 }
 
 // From the static balance, in one step or, where that fails, by raising the load.
@@ -287,6 +288,11 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
     if (p.taut_out[k] <= 0) {
       out.error = fmt::format("the span {} would be slack: {:.0f} N, of which the belt's speed takes {:.0f} N",
                               span_name(m.scene, static_cast<std::size_t>(loop.span[k])), x[k], x[k] - p.taut_out[k]);
+      return out;
+    }
+  for (int k = 0; k < n; ++k)
+    if (!balance.layers()[k].converged) {
+      out.error = "how the belt bends onto pulley " + m.body_name[loop.pulley[k]] + " was not solved";
       return out;
     }
   out.belt_speed = p.rate;
