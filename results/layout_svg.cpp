@@ -43,7 +43,8 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
   const double width = x(box.right + margin), height = y(box.bottom - margin) + 40;
 
   std::string s = fmt::format(
-      "<figure id=\"{0}\">\n<svg id=\"{0}_svg\" viewBox=\"0 0 {1:.0f} {2:.0f}\" width=\"{1:.0f}\" role=\"img\" "
+      "<figure id=\"{0}\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{0}_svg\" viewBox=\"0 0 {1:.0f} {2:.0f}\" "
+      "width=\"{1:.0f}\" role=\"img\" "
       "aria-label=\"layout to "
       "scale, spans coloured by tension\" font-family=\"Helvetica, sans-serif\" font-size=\"12\">\n",
       id, width, height);
