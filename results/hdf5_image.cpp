@@ -1,4 +1,4 @@
-// Owns every call to the HDF5 library; the only includer of hdf5.h.
+// Owns the writing of HDF5 files; reading them is hdf5_source.cpp.
 #include "results/hdf5_image.h"
 
 #include <hdf5.h>

@@ -71,10 +71,10 @@ inline constexpr std::string_view damage_share = "damage_share";
 // Datasets.
 inline constexpr Dataset time{"time_s", "s", "time since the start of the run"};
 
-inline constexpr Dataset normal_resolved{"normal_resolved_n", "N",
-                                         "largest normal force on one element of each pass, among all time steps"};
-inline constexpr Dataset tangential_resolved{"tangential_resolved_n", "N",
-                                             "largest friction force (absolute) of each pass, among all time steps"};
+inline constexpr Dataset normal_resolved{
+    "normal_resolved_n", "N", "largest normal force on one element of each pass, among observations 5e-6 s apart"};
+inline constexpr Dataset tangential_resolved{
+    "tangential_resolved_n", "N", "largest friction force (absolute) of each pass, among observations 5e-6 s apart"};
 inline constexpr Dataset normal_sampled{"normal_sampled_n", "N",
                                         "largest normal force of each pass that a sample caught, among the samples"};
 inline constexpr Dataset tangential_sampled{"tangential_sampled_n", "N",

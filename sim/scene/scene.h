@@ -34,7 +34,7 @@ struct EnumNames<Scheme> {
 };
 
 /// Which of the recorded contact forces the stresses use: the mean over passes of the largest 1000 Hz sample, the
-/// mean of the step-resolved maxima, or the 99th percentile of the step-resolved maxima.
+/// mean of the resolved maxima (observed every 5e-6 s), or the 99th percentile of the resolved maxima.
 enum class PassForce { sampled, resolved, percentile_99 };
 template <>
 struct EnumNames<PassForce> {
