@@ -10,12 +10,13 @@
 #include <filesystem>
 #include <sstream>
 
+#include "results/campbell_chart.h"
 #include "results/commands.h"
+#include "results/gnuplot.h"
 #include "results/print.h"
+#include "results/solved_drive.h"
 #include "results/table.h"
-#include "sim/modes/campbell.h"
 #include "sim/scene/scene_io.h"
-#include "sim/signal/spectrum.h"
 
 namespace beltlife {
 namespace {
@@ -32,64 +33,6 @@ bool has_gnuplot() {
   return false;
 }
 
-// A string of gnuplot's in single quotes, where only they are special; no line break may end the command.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') out += '\'';
-    out += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return out + "'";
-}
-
-std::string line_style(const FrequencyCurve& curve, int color) {
-  if (!curve.arm) return fmt::format("lc {} lw 1 dt 3", color);
-  return fmt::format("lc {} lw 2 dt {}", color, *curve.arm == ArmState::stuck ? 2 : 1);
-}
-
-std::string map_script(const Model& m, const Campbell& diagram, const std::vector<Crossing>& found) {
-  const double first = diagram.crank_rpm.front(), last = diagram.crank_rpm.back();
-  const double top = default_orders().back() * last / 60;
-  std::string s =
-      "set terminal svg size 1200,760 dynamic noenhanced background rgb 'white'\n"
-      "set xlabel 'crank speed, r/min'\nset ylabel 'frequency, Hz'\nset key outside right top noenhanced\n"
-      "set grid lc rgb '#e6e6e6'\nset rmargin 46\n";
-  s += fmt::format("set title {} offset 0,0.8\nset xrange [{}:{}]\nset yrange [0:{}]\n", quoted(m.scene.title), first,
-                   last, top);
-  std::string labelled;  // ranges at the same speed share a line
-  for (const RangeSpec& range : m.scene.range) {
-    const std::string at = fmt::format("{:g}", range.crank_rpm);
-    s += fmt::format("set arrow from {0},0 to {0},{1} nohead lc rgb '#dddddd' lw 6 back\n", at, top);
-    if (labelled.find(fmt::format("<{}>", at)) == labelled.npos)
-      s += fmt::format("set label {} at {},{} center offset 0,0.7 font ',11' tc rgb '#555555'\n", quoted(range.name),
-                       at, top);
-    labelled += fmt::format("<{}>", at);
-  }
-  for (const double order : default_orders()) {
-    s += fmt::format("set arrow from {},{} to {},{} nohead lc rgb '#999999' lw 0.6 back\n", first, order * first / 60,
-                     last, order * last / 60);
-    s += fmt::format("set label '{:g}' at {},{} right offset -0.3,0.4 font ',10' tc rgb '#666666'\n", order, last,
-                     order * last / 60);
-  }
-  s += "$near << EOD\n";
-  for (const Crossing& c : found)
-    if (c.near) s += fmt::format("{} {}\n", c.crank_rpm, c.frequency_hz);
-  s += "EOD\n";
-  for (std::size_t i = 0; i < diagram.curves.size(); ++i) {
-    s += fmt::format("$c{} << EOD\n", i);
-    for (std::size_t k = 0; k < diagram.crank_rpm.size(); ++k)
-      s += fmt::format("{} {}\n", diagram.crank_rpm[k], diagram.curves[i].frequency_hz[k]);
-    s += "EOD\n";
-  }
-  s += "plot ";
-  for (std::size_t i = 0; i < diagram.curves.size(); ++i)
-    s += fmt::format("$c{} with lines {} title {}, ", i, line_style(diagram.curves[i], static_cast<int>(i % 8) + 1),
-                     quoted(diagram.curves[i].name));
-  // gnuplot stops at an empty data block.
-  const bool any = std::any_of(found.begin(), found.end(), [](const Crossing& c) { return c.near.has_value(); });
-  return s + (any ? "$near with points pt 7 ps 0.5 lc rgb 'black' title 'crossing near a range'\n" : "1/0 notitle\n");
-}
-
 // The script goes to gnuplot's standard input; the drawing appears whole or not at all.
 void draw_map(const std::string& file, const std::string& script) {
   const std::string part = file + ".part";
@@ -97,7 +40,7 @@ void draw_map(const std::string& file, const std::string& script) {
   std::FILE* gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
   int code = -1;
   if (gnuplot) {
-    const std::string whole = fmt::format("set output {}\n{}", quoted(part), script);
+    const std::string whole = fmt::format("set output {}\n{}", gnuplot_quoted(part), script);
     const bool sent = std::fwrite(whole.data(), 1, whole.size(), gnuplot) == whole.size();
     code = pclose(gnuplot);
     if (!sent) code = -1;
@@ -134,11 +77,12 @@ nlohmann::json json_of(const Model& m, const DampedMode& mode) {
 }
 
 nlohmann::json json_of(const Model& m, const Modes& modes) {
-  const LoopEstimate& loop = modes.loop;
+  const OperatingPoint& loop = modes.loop;
   nlohmann::json j{{"crank_rpm", modes.range.crank_rpm},
                    {"belt_speed_m_s", loop.belt_speed},
                    {"arm_angle_rad", loop.arm_angle},
                    {"balanced", loop.balanced},
+                   {"instead", loop.instead},
                    {"slack", loop.slack},
                    {"rotational", nlohmann::json::object()},
                    {"spans", nlohmann::json::array()},
@@ -231,22 +175,12 @@ void print_transverse(const std::vector<Modes>& points) {
   fmt::print("{}\n", table.text(0));
 }
 
-// What can resonate near a range: orders that the driven body's speed has, if the scene says so, and modes that are not
-// damped away.
-bool worth_printing(const Crossing& c, const SceneSpec& scene) {
-  constexpr double damped_away = 0.3;
-  if (!c.near || c.damping_ratio > damped_away) return false;
-  if (!scene.driver || scene.driver->speed_csv || scene.driver->harmonic.empty()) return true;
-  return std::any_of(scene.driver->harmonic.begin(), scene.driver->harmonic.end(),
-                     [&](const HarmonicSpec& h) { return h.order == c.order; });
-}
-
 void print_crossings(const std::vector<Crossing>& found, const SceneSpec& scene) {
   Table table({"order", "r/min", "Hz", "mode", "within 5 % of"});
   std::size_t near = 0, printed = 0;
   for (const Crossing& c : found) {
     if (c.near) ++near;
-    if (!worth_printing(c, scene)) continue;
+    if (!can_resonate(c, scene)) continue;
     ++printed;
     table.row(
         {fmt::format("{:g}", c.order), fmt::format("{:.0f}", c.crank_rpm), hertz(c.frequency_hz), c.mode, *c.near});
@@ -261,14 +195,31 @@ void print_crossings(const std::vector<Crossing>& found, const SceneSpec& scene)
 
 void print_doubts(const std::vector<Modes>& points, const Model& m) {
   for (const Modes& p : points) {
-    if (p.loop.slack) fmt::print("{}: a span is slack by this estimate; its numbers mean little\n", p.range.name);
-    if (!p.loop.balanced)
-      fmt::print("{}: no arm angle balances these torques; the arm is taken where it rests\n", p.range.name);
+    if (!p.loop.instead.empty()) fmt::print("{}: {}\n", p.range.name, p.loop.instead);
+    if (p.loop.slack) fmt::print("{}: a span is slack; its numbers mean little\n", p.range.name);
     for (std::size_t g = 0; g < p.loop.gear_engaged.size(); ++g)
       if (!p.loop.gear_engaged[g])
         fmt::print("{}: gear pair {} carries no mean torque, its teeth are taken as apart\n", p.range.name,
                    m.scene.gear_pair[g].name);
   }
+}
+
+// Single ranges, as --range names them; crossings and map are over the speeds of all.
+DriveModes modes_of(const Model& m, const std::vector<std::string>& names) {
+  if (names.empty()) return drive_modes(m);
+  std::vector<Problem> problems;
+  std::string known;
+  for (const RangeSpec& range : m.scene.range) known += (known.empty() ? "" : ", ") + range.name;
+  for (const std::string& name : names)
+    if (std::none_of(m.scene.range.begin(), m.scene.range.end(), [&](const auto& range) { return range.name == name; }))
+      problems.push_back({"--range", 0, name, "the scene has no range of this name",
+                          known.empty() ? "none: the scene has no ranges" : known});
+  if (!problems.empty()) throw BadInput(std::move(problems));
+  DriveModes modes;
+  for (const RangeSpec& range : m.scene.range)
+    if (m.pulleys > 0 && std::find(names.begin(), names.end(), range.name) != names.end())
+      modes.points.push_back(solve_modes(m, range));
+  return modes;
 }
 
 }  // namespace
@@ -284,16 +235,11 @@ int run_modes(const CommandOptions& o) {
   } catch (const BadInput& bad) {
     throw located(file, bad);
   }
-  std::vector<Modes> points;
-  std::string nothing;
-  if (m.pulleys == 0) {
-    nothing = "a ring without pulleys has no rotational modes and no free spans: there is nothing to solve";
-  } else {
-    for (const RangeSpec& range : m.scene.range) points.push_back(solve_modes(m, range));
-    if (points.empty()) points.push_back(solve_modes(m, {"rest", 0, 0}));
-  }
-  const Campbell diagram = campbell(m);
-  const auto found = crossings(diagram, m.scene.range);
+  const DriveModes modes = modes_of(m, o.ranges);
+  const auto& [points, diagram, found] = modes;
+  const std::string nothing =
+      m.pulleys == 0 ? "a ring without pulleys has no rotational modes and no free spans: there is nothing to solve"
+                     : "";
 
   if (o.json) {
     nlohmann::json j{{"scene", o.scenes[0]},
@@ -302,7 +248,7 @@ int run_modes(const CommandOptions& o) {
                      {"crossings", json_of(found)}};
     if (!nothing.empty()) j["nothing_to_solve"] = nothing;
     for (const Modes& p : points) j["ranges"][p.range.name] = json_of(m, p);
-    fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(j));
   } else {
     fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
     if (!nothing.empty()) fmt::print("{}\n", nothing);
@@ -321,7 +267,7 @@ int run_modes(const CommandOptions& o) {
     if (!o.quiet) fmt::print(stderr, "no map: there are no natural frequencies over a range of speeds\n");
     return 0;
   }
-  draw_map(o.map, map_script(m, diagram, found));
+  draw_map(o.map, map_script(m.scene, modes));
   if (!o.quiet) fmt::print(stderr, "wrote {}\n", o.map);
   return 0;
 }

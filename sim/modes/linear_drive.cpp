@@ -66,7 +66,7 @@ int pieces(double length, double longest) { return std::max(1, static_cast<int>(
 
 class Assembly {
  public:
-  Assembly(const Model& m, const LoopEstimate& loop, ArmState arm, const LinearOptions& options)
+  Assembly(const Model& m, const OperatingPoint& loop, ArmState arm, const LinearOptions& options)
       : m_(m), loop_(loop), options_(options) {
     number_rows(arm);
     bodies();
@@ -109,7 +109,9 @@ class Assembly {
   }
 
   void links() {
-    for (const TorsionalSpring& s : m_.springs) {
+    for (std::size_t i = 0; i < m_.springs.size(); ++i) {
+      if (loop_.released[i]) continue;
+      const TorsionalSpring& s = m_.springs[i];
       const Form twist{{d_.body_row[s.from], 1.0}, {d_.body_row[s.to], -1.0}};
       add(d_.stiffness, twist, s.stiffness);
       add(d_.damping, twist, s.damping);
@@ -207,7 +209,7 @@ class Assembly {
   void arm_itself(ArmState arm) {
     const TensionerModel& t = m_.tensioner;
     const int out = t.pulley, in = (out + m_.pulleys - 1) % m_.pulleys;
-    double stiffness = t.spring_rate;
+    double stiffness = t.spring_rate + (loop_.on_stop ? t.stops.stiffness : 0);
     for (const int k : {in, out}) {
       const Span& s = loop_.route.spans[k];
       const double swing = cross(r_, Vec2{-s.direction.y, s.direction.x});
@@ -216,12 +218,14 @@ class Assembly {
     }
     if (arm == ArmState::stuck) stiffness += t.friction_stiffness;
     add(d_.stiffness, arm_times(1), stiffness);
-    add(d_.damping, arm_times(1), t.damping);
+    // A small vibration goes as long one way as the other.
+    const double damping = 0.5 * (t.damping_at(-1) + t.damping_at(1)) + (loop_.on_stop ? t.stops.damping : 0);
+    add(d_.damping, arm_times(1), damping);
     add(d_.mass, arm_times(1), t.inertia);
   }
 
   const Model& m_;
-  const LoopEstimate& loop_;
+  const OperatingPoint& loop_;
   const LinearOptions& options_;
   LinearDrive d_;
   std::vector<int> arc_pieces_, span_pieces_, arc_row_, span_row_;
@@ -247,11 +251,11 @@ std::string_view name_of(ArmState arm) {
 std::vector<ArmState> arm_states(const Model& m) {
   if (m.tensioner.pulley < 0) return {ArmState::none};
   if (m.tensioner.locked) return {ArmState::locked};
-  if (m.tensioner.friction_torque == 0) return {ArmState::free};
+  if (m.tensioner.friction_against(-1) == 0 && m.tensioner.friction_against(1) == 0) return {ArmState::free};
   return {ArmState::free, ArmState::stuck};
 }
 
-LinearDrive linearise(const Model& model, const LoopEstimate& loop, ArmState arm, const LinearOptions& options) {
+LinearDrive linearise(const Model& model, const OperatingPoint& loop, ArmState arm, const LinearOptions& options) {
   return Assembly(model, loop, arm, options).take();
 }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/modes/loop_estimate.h"
+#include "sim/modes/operating_point.h"
 
 namespace beltlife {
 
@@ -36,6 +36,6 @@ struct LinearDrive {
   int belt_row = 0;           ///< first row of the belt
 };
 
-LinearDrive linearise(const Model& model, const LoopEstimate& loop, ArmState arm, const LinearOptions& options = {});
+LinearDrive linearise(const Model& model, const OperatingPoint& loop, ArmState arm, const LinearOptions& options = {});
 
 }  // namespace beltlife

@@ -26,7 +26,8 @@ EnergyShares energy_of(const Model& m, const LinearDrive& d, const Vector& x) {
   return energy;
 }
 
-Mode mode_of(const Model& m, const LoopEstimate& loop, const LinearDrive& d, double omega2, const Eigen::VectorXd& x) {
+Mode mode_of(const Model& m, const OperatingPoint& loop, const LinearDrive& d, double omega2,
+             const Eigen::VectorXd& x) {
   Mode mode{std::sqrt(std::max(omega2, 0.0)) / (2 * std::numbers::pi), {}, 0, energy_of(m, d, x)};
   mode.body_shape.assign(m.bodies, 0.0);
   double largest = 0;
@@ -72,7 +73,7 @@ std::vector<DampedMode> damped_modes(const Model& m, const LinearDrive& d, const
   return modes;
 }
 
-ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, const ModesOptions& options) {
+ArmModes rotational(const Model& m, const OperatingPoint& loop, ArmState arm, const ModesOptions& options) {
   const LinearDrive d = linearise(m, loop, arm, options.linear);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(d.stiffness, d.mass);
   ArmModes modes{arm, {}, {}};
@@ -88,14 +89,14 @@ ArmModes rotational(const Model& m, const LoopEstimate& loop, ArmState arm, cons
   return modes;
 }
 
-SpanModes string_modes(const Model& m, const LoopEstimate& loop, std::size_t k) {
+SpanModes string_modes(const Model& m, const OperatingPoint& loop, std::size_t k) {
   SpanModes s;
   s.name = span_name(m.scene, k);
   s.length = loop.route.spans[k].length;
   s.tension = loop.tension[k];
-  const double mass = m.scene.belt.mass_kg_per_m / (1 + s.tension / m.belt.axial_stiffness);
+  const double stretch = 1 + s.tension / m.belt.axial_stiffness, mass = m.scene.belt.mass_kg_per_m / stretch;
   s.wave_speed = std::sqrt(std::max(s.tension, 0.0) / mass);
-  const double c = s.wave_speed, v = loop.belt_speed;
+  const double c = s.wave_speed, v = loop.belt_speed * stretch;
   if (c > v)
     for (int n = 1; n <= 2; ++n) s.frequency_hz[n - 1] = n * (c * c - v * v) / (2 * s.length * c);
   return s;
@@ -106,7 +107,7 @@ SpanModes string_modes(const Model& m, const LoopEstimate& loop, std::size_t k) 
 Modes solve_modes(const Model& m, const RangeSpec& range, const ModesOptions& options) {
   Modes modes{range, {}, {}, {}};
   if (m.pulleys == 0) return modes;
-  modes.loop = estimate_loop(m, range.crank_rpm);
+  modes.loop = operating_point(m, range.crank_rpm);
   for (const ArmState arm : arm_states(m)) modes.arms.push_back(rotational(m, modes.loop, arm, options));
   for (std::size_t k = 0; k < modes.loop.route.spans.size(); ++k) modes.spans.push_back(string_modes(m, modes.loop, k));
   return modes;

@@ -54,7 +54,7 @@ struct SpanModes {
 /// Everything at one operating point.
 struct Modes {
   RangeSpec range;
-  LoopEstimate loop;           ///< about which the drive is linearised
+  OperatingPoint loop;         ///< about which the drive is linearised
   std::vector<ArmModes> arms;  ///< one entry a state of the tensioner arm
   std::vector<SpanModes> spans;
 };
