@@ -102,12 +102,19 @@ int run(int argc, char** argv) {
   check->add_option("scene", scene, "scene file (TOML)")->required();
   check->footer("Example:\n  beltlife check sim/scenes/baseline.toml --json");
   modes->add_option("scene", scene, "scene file (TOML)")->required();
-  modes->add_option("--map", o.map, "also draw frequencies over crank speed with rays of orders (needs gnuplot)")
-      ->type_name("FILE.svg")
-      ->check(not_empty());
+  CLI::Option* map =
+      modes->add_option("--map", o.map, "also draw frequencies over crank speed with rays of orders (needs gnuplot)")
+          ->type_name("FILE.svg")
+          ->check(not_empty());
+  modes->add_option("--range", o.ranges, "only this operating range, without crossings and map (repeatable)")
+      ->type_name("NAME")
+      ->take_all()
+      ->expected(1)
+      ->excludes(map);
   modes->footer(
       "Examples:\n"
       "  beltlife modes sim/scenes/baseline.toml\n"
+      "  beltlife modes sim/scenes/baseline.toml --range B100\n"
       "  beltlife modes sim/scenes/accessory_drive.toml --map accessory.svg");
   simulate->add_option("scene", scene, "scene file (TOML)")->required();
   simulate->add_flag("--each-range", o.each_range, "every range alone, in parallel, instead of the profile");

@@ -34,26 +34,24 @@ class Scratch {
   fs::path path;
 };
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '_') out += "\\\\";  // enhanced text would set a subscript
-    out += c;
-  }
-  return out + "\"";
+/// Size and colours of all charts.
+std::string preamble(int width, int height) {
+  std::string s = fmt::format(
+      "set terminal svg size {},{} dynamic noenhanced font 'Helvetica,11' linewidth 1.2\nset grid lc rgb '#dddddd'\n",
+      width, height);
+  int type = 0;
+  for (const char* colour : {"#0b61a4", "#d1495b", "#2e933c", "#8f5db7", "#c98a00", "#3aa6a6", "#777777", "#7a4b2a",
+                             "#e58bb0", "#9db92c", "#2b2b6b", "#f2b35e"})
+    s += fmt::format("set linetype {} lc rgb '{}'\n", ++type, colour);
+  return s + fmt::format("set linetype cycle {}\n", type);
 }
 
 std::string script_of(const Chart& chart) {
-  std::string s =
-      "set terminal svg size 620,300 dynamic font 'Helvetica,11' linewidth 1.2\nset output 'chart.svg'\nset grid lc "
-      "rgb '#dddddd'\n";
-  s += fmt::format("set xlabel {}\nset ylabel {}\nset key outside top center horizontal\n", quoted(chart.x_label),
-                   quoted(chart.y_label));
-  s += "set linetype 1 lc rgb '#0b61a4'\nset linetype 2 lc rgb '#d1495b'\nset linetype 3 lc rgb '#2e933c'\nset "
-       "linetype 4 lc rgb '#8f5db7'\n"
-       "set linetype 5 lc rgb '#c98a00'\nset linetype 6 lc rgb '#3aa6a6'\nset linetype 7 lc rgb '#777777'\nset "
-       "linetype cycle 7\n";
+  double key_width = 0;  // px; a key of several lines takes its height from the curves
+  for (const Curve& curve : chart.curves) key_width += 60 + 6.5 * static_cast<double>(curve.label.size());
+  std::string s = preamble(480, 255 + 18 * static_cast<int>(key_width / 440));
+  s += fmt::format("set xlabel {}\nset ylabel {}\nset key outside top center horizontal\n",
+                   gnuplot_quoted(chart.x_label), gnuplot_quoted(chart.y_label));
   if (chart.x_max > 0) s += fmt::format("set xrange [0:{:g}]\n", chart.x_max);
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     s += fmt::format("$d{} << EOD\n", i);
@@ -64,7 +62,34 @@ std::string script_of(const Chart& chart) {
   s += "plot ";
   for (std::size_t i = 0; i < chart.curves.size(); ++i)
     s += fmt::format("{}$d{} using 1:2 with {} title {}", i ? ", " : "", i,
-                     chart.curves[i].impulses ? "impulses lw 2" : "lines", quoted(chart.curves[i].label));
+                     chart.curves[i].impulses ? "impulses lw 2" : "lines", gnuplot_quoted(chart.curves[i].label));
+  return s + "\n";
+}
+
+std::string script_of(const StackedBars& chart) {
+  std::string s = preamble(480, 300);
+  s += fmt::format("set ylabel {}\nset yrange [0:{}]\nset style data histogram\nset style histogram rowstacked\n",
+                   gnuplot_quoted(chart.y_label), chart.y_max > 0 ? fmt::format("{:g}", chart.y_max) : "*");
+  s += "set style fill solid 0.9 border rgb '#ffffff'\nset boxwidth 0.7\nset xtics nomirror scale 0\nset border 3\nset "
+       "ytics nomirror\n"
+       "set key outside right top vertical invert\nunset grid\nset grid ytics lc rgb '#dddddd'\n";
+  std::size_t letters = 0;
+  for (const std::string& bar : chart.bars) letters += bar.size() + 2;
+  if (letters > 36) s += "set xtics rotate by -35\n";  // names side by side would run into each other
+  s += "$d << EOD\n";
+  for (std::size_t b = 0; b < chart.bars.size(); ++b) {
+    for (const StackedBars::Layer& layer : chart.layers) s += fmt::format("{:.6g} ", layer.heights[b]);
+    s += "\n";
+  }
+  s += "EOD\nset xtics (";
+  for (std::size_t b = 0; b < chart.bars.size(); ++b) {
+    std::string name = chart.bars[b];  // a tic's text is a format
+    for (std::size_t at = 0; (at = name.find('%', at)) != name.npos; at += 2) name.insert(at, 1, '%');
+    s += fmt::format("{}{} {}", b ? ", " : "", gnuplot_quoted(name), b);
+  }
+  s += ")\nplot ";
+  for (std::size_t l = 0; l < chart.layers.size(); ++l)
+    s += fmt::format("{}$d using {} title {}", l ? ", " : "", l + 1, gnuplot_quoted(chart.layers[l].label));
   return s + "\n";
 }
 
@@ -78,9 +103,22 @@ std::string with_unique_ids(std::string svg, const std::string& id) {
 
 }  // namespace
 
-std::string svg_of(const Chart& chart) {
+std::string gnuplot_quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string svg_of(const Chart& chart) { return svg_of_script(chart.id, script_of(chart)); }
+
+std::string svg_of(const StackedBars& chart) { return svg_of_script(chart.id, script_of(chart)); }
+
+std::string svg_of_script(const std::string& id, const std::string& script) {
   const Scratch scratch;
-  std::ofstream(scratch.path / "chart.gp") << script_of(chart);
+  std::ofstream(scratch.path / "chart.gp") << "set output 'chart.svg'\n" << script;
   const std::string command = fmt::format("cd '{}' && gnuplot chart.gp >log.txt 2>&1", scratch.path.string());
   const int status = std::system(command.c_str());
   std::ifstream in(scratch.path / "chart.svg");
@@ -91,10 +129,10 @@ std::string svg_of(const Chart& chart) {
     std::string words;
     std::getline(log, words);
     throw BadInput(
-        {Problem{"gnuplot", 0, chart.id, "drew no chart: " + (words.empty() ? std::string("no reason given") : words),
+        {Problem{"gnuplot", 0, id, "drew no chart: " + (words.empty() ? std::string("no reason given") : words),
                  "a working gnuplot: apt-get install gnuplot-nox"}});
   }
-  return fmt::format("<figure id=\"{}\">\n{}\n</figure>\n", chart.id, with_unique_ids(svg.substr(begin), chart.id));
+  return fmt::format("<figure id=\"{}\">\n{}\n</figure>\n", id, with_unique_ids(svg.substr(begin), id));
 }
 
 }  // namespace beltlife

@@ -19,8 +19,27 @@ struct Chart {
   double x_max = 0;  ///< 0: by the data
 };
 
+/// Bars of layers on top of each other, in percent or what else adds up.
+struct StackedBars {
+  std::string id;
+  std::string y_label;
+  std::vector<std::string> bars;  ///< name of each bar
+  struct Layer {
+    std::string label;
+    std::vector<double> heights;  ///< one a bar
+  };
+  std::vector<Layer> layers;
+  double y_max = 0;  ///< 0: by the data
+};
+
 /// The chart as an SVG element that can stand in an HTML page beside others. Throws BadInput naming the package to
 /// install if there is no gnuplot.
 std::string svg_of(const Chart& chart);
+std::string svg_of(const StackedBars& chart);
+/// A string of gnuplot's, where the terminal is `noenhanced`: in single quotes, where only they are special; no line
+/// break may end the command.
+std::string gnuplot_quoted(const std::string& text);
+/// The same of a script that sets terminal and axes and plots, but names no output.
+std::string svg_of_script(const std::string& id, const std::string& script);
 
 }  // namespace beltlife

@@ -70,6 +70,32 @@ std::vector<double> Hdf5Source::numbers(const std::string& path) const {
   return values;
 }
 
+std::vector<double> Hdf5Source::numbers(const std::string& path, std::size_t rows) const {
+  auto values = numbers(path);
+  if (values.size() != rows) file_->refuse(path + " is not as long as the columns beside it");
+  return values;
+}
+
+std::vector<std::string> Hdf5Source::texts(const std::string& path) const {
+  const Closer set{H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose};
+  if (set.id < 0) file_->refuse("has no " + path);
+  const Closer space{H5Dget_space(set.id), H5Sclose}, type{H5Dget_type(set.id), H5Tclose};
+  std::vector<char*> pointers(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id)));
+  if (pointers.empty()) return {};
+  if (H5Tis_variable_str(type.id) <= 0 || H5Dread(set.id, type.id, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) < 0)
+    file_->refuse(path + " cannot be read as texts");
+  std::vector<std::string> values;
+  for (const char* pointer : pointers) values.push_back(pointer ? pointer : "");
+  H5Dvlen_reclaim(type.id, space.id, H5P_DEFAULT, pointers.data());
+  return values;
+}
+
+std::vector<std::string> Hdf5Source::texts(const std::string& path, std::size_t rows) const {
+  auto values = texts(path);
+  if (values.size() != rows) file_->refuse(path + " is not as long as the columns beside it");
+  return values;
+}
+
 double Hdf5Source::number(const std::string& path) const {
   const auto values = numbers(path);
   if (values.size() != 1) file_->refuse(path + " is not a single number");

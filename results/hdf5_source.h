@@ -1,6 +1,7 @@
 // Owns reading from an HDF5 file, without showing the HDF5 API to anybody.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,6 +21,10 @@ class Hdf5Source {
   /// Names directly below a group, in the order in which they were written; none if there is no such group.
   std::vector<std::string> children(const std::string& path) const;
   std::vector<double> numbers(const std::string& path) const;
+  /// A column whose table has `rows` rows; refuses any other length.
+  std::vector<double> numbers(const std::string& path, std::size_t rows) const;
+  std::vector<std::string> texts(const std::string& path) const;
+  std::vector<std::string> texts(const std::string& path, std::size_t rows) const;
   double number(const std::string& path) const;
   std::vector<int> integers(const std::string& path) const;
   double number(const std::string& path, std::string_view attribute) const;

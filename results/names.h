@@ -21,6 +21,20 @@ inline constexpr int format = 1;
 inline constexpr std::string_view runs = "/runs";      // /runs/RUN
 inline constexpr std::string_view ranges = "/ranges";  // /ranges/RANGE
 inline constexpr std::string_view life = "/life";      // /life/RANGE
+inline constexpr std::string_view statics = "/statics";
+inline constexpr std::string_view take_up = "/statics/take_up";
+inline constexpr std::string_view statics_ranges = "/statics/ranges";  // /statics/ranges/RANGE
+inline constexpr std::string_view spans = "/spans";                    // below one of them, like the following
+inline constexpr std::string_view pulleys = "/pulleys";
+inline constexpr std::string_view modes = "/modes";
+inline constexpr std::string_view modes_ranges = "/modes/ranges";  // /modes/ranges/RANGE
+inline constexpr std::string_view damped = "/damped";              // below one of them, like the following
+inline constexpr std::string_view undamped = "/undamped";
+inline constexpr std::string_view transverse_modes = "/transverse";
+inline constexpr std::string_view energy_shares = "/energy_share";  // below damped and undamped; one BODY a dataset
+inline constexpr std::string_view shapes = "/shape";                // below undamped; one BODY a dataset
+inline constexpr std::string_view map = "/modes/map";               // one CURVE a dataset
+inline constexpr std::string_view crossings = "/modes/crossings";
 inline constexpr std::string_view trace = "/trace";    // below a run
 inline constexpr std::string_view passes = "/passes";  // below a range, like the following
 inline constexpr std::string_view energy = "/energy";
@@ -67,6 +81,25 @@ inline constexpr std::string_view life_log10_life_h = "log10_life_h";
 inline constexpr std::string_view life_error = "error";
 inline constexpr std::string_view life_cycles = "cycles";
 inline constexpr std::string_view damage_share = "damage_share";
+
+inline constexpr std::string_view estimated_life_h = "estimated_life_h";
+inline constexpr std::string_view estimated_log10_life_h = "estimated_log10_life_h";
+inline constexpr std::string_view estimated_error = "estimated_error";
+inline constexpr std::string_view error = "error";
+inline constexpr std::string_view belt_speed_m_s = "belt_speed_m_s";
+inline constexpr std::string_view centrifugal_n = "centrifugal_n";
+inline constexpr std::string_view driver_power_w = "driver_power_w";
+inline constexpr std::string_view torque_table_power_w = "torque_table_power_w";
+inline constexpr std::string_view loss_w = "loss_w";
+inline constexpr std::string_view arm_angle_rad = "arm_angle_rad";
+inline constexpr std::string_view arm_angle_low_rad = "arm_angle_low_rad";
+inline constexpr std::string_view arm_angle_high_rad = "arm_angle_high_rad";
+inline constexpr std::string_view balanced = "balanced";
+inline constexpr std::string_view slack = "slack";
+inline constexpr std::string_view instead = "instead";
+inline constexpr std::string_view remarks = "remarks";
+inline constexpr std::string_view curve_arm = "arm";
+inline constexpr std::string_view curve_damping_ratio = "damping_ratio";
 
 // Datasets.
 inline constexpr Dataset time{"time_s", "s", "time since the start of the run"};
@@ -117,5 +150,61 @@ inline constexpr Dataset sigma_m{"sigma_m_mpa", "MPa", "equivalent mean stress (
 inline constexpr Dataset sigma_a{"sigma_a_mpa", "MPa", "equivalent alternating stress (thesis 5.20)"};
 inline constexpr Dataset cycles{"cycles", "", "passes to failure of this pulley alone (thesis 6.4)"};
 inline constexpr Dataset pulley_damage{"damage_share", "", "share of the range's damage done by this pulley"};
+
+inline constexpr Dataset take_up_position{"position", "", "which position of the arm each row is about"};
+inline constexpr Dataset take_up_arm{"arm_angle_rad", "rad",
+                                     "angle of the arm, counterclockwise from where the scene places it"};
+inline constexpr Dataset take_up_path{"path_length_m", "m", "belt path along the pulleys' contact radii"};
+inline constexpr Dataset take_up_unstretched{"unstretched_length_m", "m", "belt that is at rest with the arm there"};
+inline constexpr Dataset take_up_tension{"tension_n", "N", "with which the spring balances the arm there"};
+inline constexpr Dataset take_up_ended_by{"ended_by", "", "what ends the arm's reach here; empty within it"};
+
+inline constexpr Dataset span_of_row{"span", "", "name of the span to which each row of the other columns belongs"};
+inline constexpr Dataset span_tension{"tension_n", "N", "tension with its centrifugal part, the arm free of friction"};
+inline constexpr Dataset span_tension_low{"tension_low_n", "N", "lowest between the arm's two friction limits"};
+inline constexpr Dataset span_tension_high{"tension_high_n", "N", "highest between the arm's two friction limits"};
+
+inline constexpr Dataset pulley_speed{"speed_rpm", "r/min", "speed in the running sense, creep included"};
+inline constexpr Dataset pulley_torque{"torque_n_m", "N m", "of the belt on the pulley, in the running sense"};
+inline constexpr Dataset pulley_wrap{"wrap_deg", "deg", "geometric wrap"};
+inline constexpr Dataset hub_load{"hub_load_n", "N", "force of the belt on the pulley, magnitude"};
+inline constexpr Dataset hub_load_low{"hub_load_low_n", "N", "lowest between the arm's two friction limits"};
+inline constexpr Dataset hub_load_high{"hub_load_high_n", "N", "highest between the arm's two friction limits"};
+inline constexpr Dataset hub_direction{"hub_direction_deg", "deg", "of the hub load, counterclockwise from x"};
+inline constexpr Dataset slip_safety{
+    "slip_safety", "", "friction times wrap over what the torque takes; below 1 the belt slips; NaN without torque"};
+inline constexpr Dataset bending_loss{"bending_loss_w", "W", "bending loss, the belt sinking into its contact"};
+inline constexpr Dataset rigid_bending_loss{"rigid_bending_loss_w", "W", "bending loss in closed form, rigid contact"};
+inline constexpr Dataset creep_loss{"creep_loss_w", "W", "loss by creep, where the tension changes"};
+inline constexpr Dataset estimated_sigma_m{"estimated_sigma_m_mpa", "MPa",
+                                           "equivalent mean stress (thesis 5.19) estimated from steady tensions"};
+inline constexpr Dataset estimated_sigma_a{"estimated_sigma_a_mpa", "MPa",
+                                           "equivalent alternating stress (thesis 5.20), likewise"};
+inline constexpr Dataset estimated_cycles{"estimated_cycles", "", "passes to failure of this pulley alone, likewise"};
+inline constexpr Dataset estimated_damage{"estimated_damage_share", "", "share of the range's damage, likewise"};
+
+inline constexpr Dataset mode_arm{"arm", "", "tensioner arm of each row: free, stuck by friction, locked, or none"};
+inline constexpr Dataset mode_frequency{"frequency_hz", "Hz", "natural frequency"};
+inline constexpr Dataset mode_damping{"damping_ratio", "", "of critical damping, by the viscous dampers"};
+inline constexpr Dataset mode_moving{"moving", "", "who holds most of the kinetic energy, in words"};
+inline constexpr Dataset mode_arm_energy{"arm_energy_share", "", "share of the kinetic energy in the tensioner arm"};
+inline constexpr Dataset mode_belt_energy{"belt_energy_share", "", "share of the kinetic energy in the belt"};
+inline constexpr Dataset mode_arm_shape{"arm_shape", "", "travel of the tensioner pulley's centre, largest entry is 1"};
+inline constexpr Dataset body_energy{"BODY", "", "share of the kinetic energy in this body, one entry a mode"};
+inline constexpr Dataset body_shape{"BODY", "",
+                                    "turn of this body as belt travel, one entry a mode; a mode's largest entry is 1"};
+inline constexpr Dataset span_length{"length_m", "m", "free length of the span"};
+inline constexpr Dataset span_tension_estimate{"tension_n", "N",
+                                               "tension at the operating point, centrifugal part included"};
+inline constexpr Dataset span_wave_speed{"wave_speed_m_s", "m/s", "speed of transverse waves on the belt"};
+inline constexpr Dataset span_first{"first_hz", "Hz", "first transverse natural frequency, the belt travelling"};
+inline constexpr Dataset span_second{"second_hz", "Hz", "second transverse natural frequency"};
+
+inline constexpr Dataset map_speed{"crank_rpm", "r/min", "speed of the driven body to which the curves belong"};
+inline constexpr Dataset map_curve{"CURVE", "Hz", "natural frequency at each crank_rpm"};
+inline constexpr Dataset crossing_order{"order", "", "cycles per revolution of the driven body"};
+inline constexpr Dataset crossing_speed{"crank_rpm", "r/min", "where the order meets the natural frequency"};
+inline constexpr Dataset crossing_mode{"mode", "", "name of the curve in the map"};
+inline constexpr Dataset crossing_near{"near", "", "range within 5 % of the speed; empty: none"};
 
 }  // namespace beltlife::names

@@ -22,6 +22,10 @@ std::string number_text(double value, const char* format) {
 
 nlohmann::json finite(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr); }
 
+std::string json_text(const nlohmann::json& j) {
+  return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 nlohmann::json json_of(const RangeSummary& s) {
   nlohmann::json j;
   j["crank_rpm"] = s.crank_rpm;

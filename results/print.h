@@ -30,4 +30,7 @@ std::string text_of(const std::vector<KernelTime>& times, int nodes);
 /// A number or null where it is not finite (JSON has no infinity).
 nlohmann::json finite(double value);
 
+/// An answer as text. A path may hold bytes that are no UTF-8; JSON cannot, and shows a replacement character.
+std::string json_text(const nlohmann::json& answer);
+
 }  // namespace beltlife

@@ -7,32 +7,13 @@
 #include <numbers>
 
 #include "results/print.h"
+#include "results/solved_drive.h"
 #include "results/table.h"
-#include "sim/statics/quasi_static.h"
-#include "sim/statics/take_up.h"
 
 namespace beltlife {
 namespace {
 
 constexpr double degree = 180 / std::numbers::pi, rpm = 30 / std::numbers::pi;
-
-std::vector<QuasiStaticRange> solve_all(const Model& m) {
-  std::vector<QuasiStaticRange> ranges;
-  for (const RangeSpec& range : m.scene.range) ranges.push_back(solve_quasi_static(m, range));
-  return ranges;
-}
-
-Life estimate(const Model& m, const std::vector<QuasiStaticRange>& ranges) {
-  std::vector<RangeLoad> loads;
-  for (std::size_t i = 0; i < ranges.size(); ++i)
-    if (!ranges[i].error) loads.push_back(estimated_load(m, m.scene.range[i], ranges[i]));
-  Life life = duty_cycle_life(loads, m.scene.fatigue);
-  if (loads.size() < ranges.size() && !life.error) {
-    life.error = "not every range has a quasi-static solution";
-    life.life_h = life.log10_life_h = std::nan("");
-  }
-  return life;
-}
 
 double direction(const QuasiStaticPulley& p) { return std::atan2(p.hub_y, p.hub_x) * degree; }
 
@@ -42,10 +23,15 @@ std::string band(double value, double low, double high) {
 
 nlohmann::json json_of(const QuasiStaticRange& r) {
   if (r.error) return {{"crank_rpm", r.crank_rpm}, {"error", *r.error}};
-  nlohmann::json j{
-      {"crank_rpm", r.crank_rpm},         {"belt_speed_m_s", r.belt_speed},        {"centrifugal_n", r.centrifugal},
-      {"driver_power_w", r.driver_power}, {"torque_table_power_w", r.table_power}, {"loss_w", r.loss},
-      {"spans", nlohmann::json::array()}, {"pulleys", nlohmann::json::array()}};
+  nlohmann::json j{{"remarks", r.remarks},
+                   {"crank_rpm", r.crank_rpm},
+                   {"belt_speed_m_s", r.belt_speed},
+                   {"centrifugal_n", r.centrifugal},
+                   {"driver_power_w", r.driver_power},
+                   {"torque_table_power_w", r.table_power},
+                   {"loss_w", r.loss},
+                   {"spans", nlohmann::json::array()},
+                   {"pulleys", nlohmann::json::array()}};
   if (r.arm_angle) {
     j["arm_angle_rad"] = *r.arm_angle;
     j["arm_angle_rad_low"] = *r.arm_angle_low;
@@ -104,6 +90,8 @@ std::string tensions_text(const std::vector<QuasiStaticRange>& ranges) {
   }
   for (const QuasiStaticRange& r : ranges)
     if (r.error) out += fmt::format("{}: no quasi-static solution: {}\n", r.name, *r.error);
+  for (const QuasiStaticRange& r : ranges)
+    for (const std::string& words : r.remarks) out += fmt::format("{}: {}\n", r.name, words);
   return out + "\n";
 }
 
@@ -136,15 +124,16 @@ std::string life_text(const Life& life) {
 
 std::string statics_text(const Model& m) {
   std::string out;
-  if (const auto rows = take_up(m); !rows.empty()) {
+  const DriveStatics statics = drive_statics(m);
+  if (const auto& rows = statics.take_up; !rows.empty()) {
     Table table({"take-up", "arm rad", "belt path mm", "unstretched mm", "tension N", "ended by"});
     for (const TakeUpRow& r : rows)
       table.row({r.name, fmt::format("{:.4f}", r.arm_angle), fmt::format("{:.1f}", 1e3 * r.path_length),
                  fmt::format("{:.1f}", 1e3 * r.unstretched_length), fmt::format("{:.0f}", r.tension), r.reason});
     out += table.text(0) + "\n";
   }
-  if (m.pulleys == 0 || m.scene.range.empty()) return out;
-  const auto ranges = solve_all(m);
+  const auto& ranges = statics.ranges;
+  if (ranges.empty()) return out;
   out += "quasi-static: steady running at the mean speed, no ripple; in brackets between the arm's friction limits\n\n";
   out += tensions_text(ranges) + pulleys_text(ranges);
   bool solved = false;
@@ -154,13 +143,13 @@ std::string statics_text(const Model& m) {
                "estimate of stress and life, from steady tensions and T' l0/R times {:.2f} (sampled) or {:.2f} "
                "(resolved), measured on the thesis' drive\n(no vibration: `beltlife life` simulates)\n\n",
                sampled_peak_factor, resolved_peak_factor) +
-           life_text(estimate(m, ranges));
+           life_text(statics.estimate);
   return out;
 }
 
 void add_statics(const Model& m, nlohmann::json& answer) {
-  if (m.pulleys == 0) return;
-  if (const auto rows = take_up(m); !rows.empty()) {
+  const DriveStatics statics = drive_statics(m);
+  if (const auto& rows = statics.take_up; !rows.empty()) {
     answer["take_up"] = nlohmann::json::array();
     for (const TakeUpRow& r : rows)
       answer["take_up"].push_back({{"name", r.name},
@@ -170,11 +159,8 @@ void add_statics(const Model& m, nlohmann::json& answer) {
                                    {"tension_n", finite(r.tension)},
                                    {"ended_by", r.reason}});
   }
-  if (m.scene.range.empty()) return;
-  const auto ranges = solve_all(m);
-  for (const QuasiStaticRange& r : ranges) answer["quasi_static"][r.name] = json_of(r);
-  const Life life = estimate(m, ranges);
-  for (const RangeLife& range : life.ranges) {
+  for (const QuasiStaticRange& r : statics.ranges) answer["quasi_static"][r.name] = json_of(r);
+  for (const RangeLife& range : statics.estimate.ranges) {
     auto& target = answer["quasi_static"][range.name];
     target["estimated_life_h"] = finite(range.life_h);
     for (std::size_t i = 0; i < range.pulleys.size(); ++i) {

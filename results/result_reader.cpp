@@ -2,7 +2,9 @@
 #include "results/result_reader.h"
 
 #include "results/hdf5_source.h"
+#include "results/modes_group.h"
 #include "results/names.h"
+#include "results/statics_group.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -104,6 +106,8 @@ ResultFile read_results(const std::filesystem::path& path) {
       throw BadInput({Problem{path.string(), 0, at, "belongs to a run that the file lacks", "a whole result file"}});
     out.runs[run].windows.push_back(window_of(file, at));
   }
+  out.statics = read_statics(file);
+  out.modes = read_modes(file);
   return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "results/results_file.h"
@@ -12,10 +13,12 @@ namespace beltlife {
 struct ResultFile {
   Provenance provenance;
   std::vector<RunRecord> runs;
+  std::optional<DriveStatics> statics;
+  std::optional<DriveModes> modes;
 };
 
-/// Reads what write_results wrote; everything derived (summaries, life) is worked out again from it. Throws BadInput
-/// for a file that is not one of ours, of another format, or damaged.
+/// Reads what write_results wrote; what is derived from the runs (summaries, life) is worked out again from them.
+/// Throws BadInput for a file that is not one of ours, of another format, or damaged.
 ResultFile read_results(const std::filesystem::path& path);
 
 }  // namespace beltlife

@@ -8,10 +8,10 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <set>
 
-#include "results/hdf5_image.h"
-#include "results/names.h"
+#include "results/file_paths.h"
+#include "results/modes_group.h"
+#include "results/statics_group.h"
 #include "sim/scene/scene_io.h"
 #include "sim/signal/spectrum.h"
 
@@ -76,32 +76,6 @@ void write_bytes(const fs::path& path, const fs::path& temporary, const std::vec
   if (!out)
     refuse(path, fmt::format("writing {} bytes failed: {}", bytes.size(), std::strerror(errno)),
            "free space on the disk, or a path elsewhere");
-}
-
-/// A name as one path component: HDF5 separates groups by '/' and reads "." as "here".
-std::string component(std::string name) {
-  std::ranges::replace(name, '/', '_');
-  return name.empty() || name == "." ? "_" : name;
-}
-
-std::string join(std::string_view parent, std::string_view name) { return fmt::format("{}/{}", parent, name); }
-
-/// Hands out components that are unique below one parent, so that no result is lost to a repeated name.
-class UniqueNames {
- public:
-  std::string take(const std::string& wanted) {
-    const std::string name = component(wanted);
-    std::string unique = name;
-    for (int i = 2; !taken_.insert(unique).second; ++i) unique = fmt::format("{}_{}", name, i);
-    return unique;
-  }
-
- private:
-  std::set<std::string> taken_;
-};
-
-void put(Hdf5Image& file, const std::string& parent, const names::Dataset& as, std::span<const double> values) {
-  file.dataset(join(parent, as.name), values, as.unit, as.about);
 }
 
 void put_root(Hdf5Image& file, const Provenance& provenance) {
@@ -275,7 +249,8 @@ void put_life(Hdf5Image& file, const Life& life) {
   for (const RangeLife& range : life.ranges) put_range_life(file, join(at, unique.take(range.name)), range);
 }
 
-std::vector<char> image_of(const Provenance& provenance, const std::vector<RunRecord>& runs, const Life* life) {
+std::vector<char> image_of(const Provenance& provenance, const std::vector<RunRecord>& runs, const Life* life,
+                           const SolvedDrive* solved) {
   Hdf5Image file;
   put_root(file, provenance);
   file.group(std::string(names::runs), "simulated runs: the whole profile, or one for each range");
@@ -287,6 +262,10 @@ std::vector<char> image_of(const Provenance& provenance, const std::vector<RunRe
       put_window(file, join(names::ranges, unique.take(window.range)), i, runs[i], window);
   }
   if (life) put_life(file, *life);
+  if (solved) {
+    put_statics(file, solved->statics);
+    put_modes(file, solved->model, solved->modes);
+  }
   return file.bytes();
 }
 
@@ -299,10 +278,10 @@ void check_writable(const fs::path& path) {
 }
 
 void write_results(const fs::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs,
-                   const Life* life) {
+                   const Life* life, const SolvedDrive* solved) {
   refuse_obvious(path);
   // A failure of the library in memory is a bug of ours, not of the path: it passes through.
-  const std::vector<char> bytes = image_of(provenance, runs, life);
+  const std::vector<char> bytes = image_of(provenance, runs, life, solved);
   TemporaryFile temporary(path);
   write_bytes(path, temporary.path(), bytes);
   std::error_code error;

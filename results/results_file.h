@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "results/solved_drive.h"
 #include "sim/life/life.h"
 #include "sim/record.h"
 
@@ -26,10 +27,11 @@ struct Provenance {
 /// directory). Throws BadInput.
 void check_writable(const std::filesystem::path& path);
 
-/// Writes runs (one per simulated run: the whole profile, or one per range) and the life to `path`.
+/// Writes runs (one per simulated run: the whole profile, or one per range), the life and what is solved of the drive
+/// without running it to `path`; the latter two may be missing.
 /// Failed runs are written too, marked by their status. Throws BadInput if the file cannot be written; leaves
 /// nothing behind then.
 void write_results(const std::filesystem::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs,
-                   const Life* life);
+                   const Life* life, const SolvedDrive* solved = nullptr);
 
 }  // namespace beltlife

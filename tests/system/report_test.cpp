@@ -21,9 +21,9 @@ const Arguments short_profile{"--set",      "profile.settle_s=0.02",
 
 class Report : public InFolder {
  protected:
-  std::string page_of(const std::string& scene_name) {
-    const Answer run =
-        beltlife(Arguments{"simulate", scene(scene_name), "--each-range", "--out", "r.h5"} + short_profile, folder);
+  std::string page_of(const std::string& scene_name, const Arguments& more = {}) {
+    const Answer run = beltlife(
+        Arguments{"simulate", scene(scene_name), "--each-range", "--out", "r.h5"} + short_profile + more, folder);
     EXPECT_EQ(run.code, 0) << run.err;
     const Answer report = beltlife({"report", "r.h5"}, folder);
     EXPECT_EQ(report.code, 0) << report.err;
@@ -40,7 +40,18 @@ TEST_F(Report, HasEverySectionOfADriveAndEveryIdOnce) {
                          "layout-table",
                          "life",
                          "life-ranges",
+                         "life-damage-ranges",
+                         "life-damage-cycle",
                          "life-pulleys",
+                         "statics",
+                         "statics-tensions",
+                         "statics-hub-loads",
+                         "statics-slip-safety",
+                         "modes",
+                         "modes-map",
+                         "modes-crossings",
+                         "modes-rotational-none",
+                         "modes-transverse",
                          "losses",
                          "losses-table",
                          "ranges",
@@ -79,7 +90,31 @@ TEST_F(Report, OfARingHasNoLayoutAndNoLife) {
   EXPECT_NE(page.find("id=\"summary\""), std::string::npos);
   EXPECT_NE(page.find("id=\"range-rest-loop\""), std::string::npos);
   EXPECT_EQ(page.find("id=\"layout\""), std::string::npos);
-  EXPECT_EQ(page.find("id=\"life\""), std::string::npos);
+  for (const char* id : {"life", "statics", "modes"})
+    EXPECT_EQ(page.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+}
+
+TEST_F(Report, OfADriveWithATensionerHasItsTakeUpAndBothStatesOfItsArm) {
+  const std::string page = page_of("accessory_drive", {"--range", "town"});
+  for (const char* id : {"statics-take-up", "modes-rotational-free", "modes-rotational-stuck", "modes-near"})
+    EXPECT_NE(page.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+  EXPECT_NE(page.find("motorway"), std::string::npos) << "statics and modes are of all ranges, run or not";
+}
+
+TEST_F(Report, OfADriveThatSlipsByItsStaticsSaysSoInTableAndWarnings) {
+  EXPECT_EQ(page_of("two_pulley").find("class=\"alarm\""), std::string::npos);
+  const std::string page = page_of("two_pulley", {"--set", "belt.friction_front=0.2"});
+  EXPECT_NE(page.find(" slips</td>"), std::string::npos);
+  EXPECT_NE(page.find("class=\"alarm\""), std::string::npos);
+  EXPECT_NE(page.find("quasi-static slip safety of 0."), std::string::npos);
+}
+
+TEST_F(Report, LinksOnlyToSectionsThatAreThere) {
+  const std::string page = page_of("spinning_ring");
+  for (std::size_t at = page.find("href=\"#"); at != std::string::npos; at = page.find("href=\"#", at + 1)) {
+    const std::string id = page.substr(at + 7, page.find('"', at + 7) - at - 7);
+    EXPECT_TRUE(page.find("id=\"" + id + "\"") != page.npos || page.find("id='" + id + "'") != page.npos) << id;
+  }
 }
 
 TEST_F(Report, OfADivergedRunSaysSoAmongTheWarnings) {

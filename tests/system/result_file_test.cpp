@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "tests/documented_names.h"
 #include "tests/system/command.h"
 
 namespace beltlife::system_test {
@@ -31,6 +32,21 @@ class ResultFile {
     H5Tclose(type);
     H5Aclose(id);
     return result;
+  }
+
+  /// Every group and dataset by path, with the unit that a dataset has.
+  std::map<std::string, std::string> units() const {
+    std::map<std::string, std::string> found;
+    const auto each = [](hid_t root, const char* name, const H5L_info_t*, void* into) -> herr_t {
+      const hid_t id = H5Oopen(root, name, H5P_DEFAULT);
+      const std::string path = std::string("/") + name;
+      const auto& self = *static_cast<std::pair<const ResultFile*, std::map<std::string, std::string>*>*>(into);
+      (*self.second)[path] = H5Iget_type(id) == H5I_DATASET ? self.first->text(path.c_str(), "unit") : "";
+      return H5Oclose(id);
+    };
+    std::pair<const ResultFile*, std::map<std::string, std::string>*> into{this, &found};
+    H5Lvisit(id_, H5_INDEX_NAME, H5_ITER_INC, each, &into);
+    return found;
   }
 
   /// Every dataset of numbers by path: that all of them can be read is what "whole" means.
@@ -111,6 +127,24 @@ TEST_F(InFolder, ARunLeavesItsResultFileAndNothingElse) {
   EXPECT_EQ(datasets.at("life/slow/sigma_a_mpa").size(), 2u);
 }
 
+TEST_F(InFolder, EveryNameInTheFileOfARealDriveIsDocumentedAndEveryDocumentedNameIsThere) {
+  const Answer answer = run(Arguments{"life", scene("accessory_drive"), "--range", "town", "--out", "r.h5"} +
+                            brief(82) + Arguments{"--set", "profile.hold_s=0.15"});
+  ASSERT_EQ(answer.code, 0) << answer.err;
+  const auto documented = documented_units();
+  std::map<std::string, std::string> written;
+  for (const auto& [path, unit] : ResultFile(folder / "r.h5").units()) {
+    const std::string name = documented_spelling(path);
+    written[name] = name.ends_with("CHANNEL") ? "its own" : unit;
+    EXPECT_TRUE(documented.contains(name)) << path << " is written, but not documented";
+  }
+  for (const auto& [name, unit] : documented) {
+    if (name.find('@') != name.npos) continue;  // attributes: the unit tests
+    EXPECT_TRUE(written.contains(name)) << name << " is documented, but not written";
+    EXPECT_EQ(written[name], unit) << name;
+  }
+}
+
 TEST_F(InFolder, TheSceneInAResultFileIsTheSceneThatWasRun) {
   const Arguments drive = Arguments{"--range", "slow", "--json"} + brief(64);
   const Answer first = run(Arguments{"simulate", scene("two_pulley"), "--out", "a.h5"} + drive);
@@ -125,7 +159,10 @@ TEST_F(InFolder, ARingWithoutPulleysHasAResultFileToo) {
   const Answer answer = run({"simulate", scene("spinning_ring"), "--out", "ring.h5", "--set", "profile.settle_s=0",
                              "--set", "profile.hold_s=0.02", "--set", "profile.evaluate_s=0.01"});
   EXPECT_EQ(answer.code, 0) << answer.err;
-  EXPECT_EQ(ResultFile(folder / "ring.h5").text("/runs/0", "state"), "ok");
+  const ResultFile file(folder / "ring.h5");
+  EXPECT_EQ(file.text("/runs/0", "state"), "ok");
+  for (const auto& [path, unit] : file.units())
+    EXPECT_TRUE(!path.starts_with("/statics") && !path.starts_with("/modes")) << path;
 }
 
 // ---------------------------------------------------------------- runs that fail

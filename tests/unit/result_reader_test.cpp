@@ -95,6 +95,77 @@ TEST_F(ResultReader, GivesBackEveryNumberThatWasWritten) {
   }
 }
 
+TEST_F(ResultReader, GivesBackStaticsAndModesAsTheyWereSolved) {
+  const SolvedDrive solved = solve_drive(compile(read_scene(fs::path(BELTLIFE_SCENES) / "baseline.toml").scene));
+  write_results(folder / "r.h5", {}, {}, nullptr, &solved);
+  const ResultFile back = read_results(folder / "r.h5");
+  ASSERT_TRUE(back.statics && back.modes);
+
+  const DriveStatics &s = solved.statics, &statics = *back.statics;
+  ASSERT_FALSE(s.take_up.empty());
+  ASSERT_EQ(statics.take_up.size(), s.take_up.size());
+  for (std::size_t i = 0; i < s.take_up.size(); ++i) {
+    EXPECT_EQ(statics.take_up[i].name, s.take_up[i].name);
+    EXPECT_EQ(statics.take_up[i].reason, s.take_up[i].reason);
+    EXPECT_EQ(statics.take_up[i].unstretched_length, s.take_up[i].unstretched_length);
+  }
+  EXPECT_EQ(statics.estimate.life_h, s.estimate.life_h);
+  ASSERT_EQ(statics.ranges.size(), 6u);
+  for (std::size_t r = 0; r < s.ranges.size(); ++r) {
+    const QuasiStaticRange &a = s.ranges[r], &b = statics.ranges[r];
+    EXPECT_EQ(b.name, a.name);
+    EXPECT_EQ(b.error, a.error);
+    EXPECT_EQ(b.arm_angle, a.arm_angle);
+    EXPECT_EQ(b.loss, a.loss);
+    ASSERT_EQ(b.spans.size(), a.spans.size());
+    for (std::size_t i = 0; i < a.spans.size(); ++i) EXPECT_EQ(b.spans[i].tension_high, a.spans[i].tension_high);
+    ASSERT_EQ(b.pulleys.size(), a.pulleys.size());
+    for (std::size_t i = 0; i < a.pulleys.size(); ++i) {
+      EXPECT_EQ(b.pulleys[i].name, a.pulleys[i].name);
+      EXPECT_EQ(b.pulleys[i].hub_load, a.pulleys[i].hub_load);
+      EXPECT_EQ(b.pulleys[i].slip_safety, a.pulleys[i].slip_safety);
+      EXPECT_NEAR(b.pulleys[i].hub_x, a.pulleys[i].hub_x, 1e-9 * a.pulleys[i].hub_load);  // stored as a direction
+    }
+  }
+
+  const DriveModes &m = solved.modes, &modes = *back.modes;
+  ASSERT_EQ(modes.points.size(), m.points.size());
+  for (std::size_t r = 0; r < m.points.size(); ++r) {
+    ASSERT_EQ(modes.points[r].arms.size(), 2u);
+    for (std::size_t arm = 0; arm < 2; ++arm) {
+      const ArmModes &a = m.points[r].arms[arm], &b = modes.points[r].arms[arm];
+      EXPECT_EQ(b.arm, a.arm);
+      ASSERT_EQ(b.modes.size(), a.modes.size());
+      ASSERT_EQ(b.damped.size(), a.damped.size());
+      for (std::size_t i = 0; i < a.modes.size(); ++i) {
+        EXPECT_EQ(b.modes[i].frequency_hz, a.modes[i].frequency_hz);
+        EXPECT_EQ(b.modes[i].arm_shape, a.modes[i].arm_shape);
+        EXPECT_EQ(b.modes[i].body_shape, a.modes[i].body_shape);
+        EXPECT_EQ(b.modes[i].energy.body, a.modes[i].energy.body);
+      }
+      for (std::size_t i = 0; i < a.damped.size(); ++i) EXPECT_EQ(b.damped[i].damping_ratio, a.damped[i].damping_ratio);
+    }
+    EXPECT_EQ(modes.points[r].spans.at(3).frequency_hz, m.points[r].spans.at(3).frequency_hz);
+  }
+  EXPECT_EQ(modes.map.crank_rpm, m.map.crank_rpm);
+  ASSERT_EQ(modes.map.curves.size(), m.map.curves.size());
+  for (std::size_t i = 0; i < m.map.curves.size(); ++i) {
+    EXPECT_EQ(modes.map.curves[i].name, m.map.curves[i].name);
+    EXPECT_EQ(modes.map.curves[i].arm, m.map.curves[i].arm);
+    EXPECT_EQ(modes.map.curves[i].frequency_hz, m.map.curves[i].frequency_hz);
+  }
+  ASSERT_EQ(modes.crossings.size(), m.crossings.size());
+  EXPECT_EQ(modes.crossings.back().near, m.crossings.back().near);
+  EXPECT_EQ(modes.crossings.back().mode, m.crossings.back().mode);
+}
+
+TEST_F(ResultReader, AFileWithoutStaticsAndModesIsRead) {
+  write_results(folder / "r.h5", {}, {}, nullptr);
+  const ResultFile back = read_results(folder / "r.h5");
+  EXPECT_FALSE(back.statics);
+  EXPECT_FALSE(back.modes);
+}
+
 TEST_F(ResultReader, RefusesWhatIsNoResultFileInWords) {
   EXPECT_NE(refusal(folder / "none.h5").find("no such file"), std::string::npos);
   EXPECT_NE(refusal(folder).find("no such file"), std::string::npos);

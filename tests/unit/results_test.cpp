@@ -15,6 +15,7 @@
 
 #include "results/results_file.h"
 #include "sim/scene/scene_io.h"
+#include "tests/documented_names.h"
 
 namespace beltlife {
 namespace {
@@ -201,40 +202,22 @@ TEST_F(ResultsFile, HoldsSpectraOfCompleteWindowsOnly) {
   EXPECT_FALSE(objects.contains("/life"));
 }
 
-/// A path of the example as the documentation spells it: the scene's names replaced by what they are names of.
-std::string documented_spelling(const std::string& path) {
-  std::istringstream parts(path);
-  std::string spelling, parent;
-  for (std::string part; std::getline(parts, part, '/'); parent = part) {
-    if (parent == "runs") part = "RUN";
-    if (parent == "ranges" || parent == "life") part = "RANGE";
-    if (parent == "passes") part = "PULLEY";
-    if (part.find('.') != std::string::npos) part = "CHANNEL";
-    spelling += part.empty() ? "" : "/" + part;
-  }
-  return spelling.empty() ? "/" : spelling;
-}
-
 TEST_F(ResultsFile, NamesAndUnitsAreThoseOfTheReadme) {
-  std::map<std::string, std::string> documented, written;  // unit by name
-  std::ifstream readme(fs::path(__FILE__).parent_path() / "../../results/README.md");
-  ASSERT_TRUE(readme);
-  for (std::string line; std::getline(readme, line);) {
-    if (!line.starts_with("| `/")) continue;  // rows are | `name` | unit | meaning |
-    const std::size_t end = line.find('`', 3), bar = line.find('|', end), next = line.find('|', bar + 1);
-    const std::string cell = line.substr(bar + 2, next - bar - 2);
-    documented[line.substr(3, end - 3)] = cell.empty() ? "" : cell.substr(0, cell.size() - 1);
-  }
-
+  const auto documented = documented_units();
+  std::map<std::string, std::string> written;  // unit by name
   const Life life = example_life();
-  write_results(path, provenance(), {example_run()}, &life);
+  const SolvedDrive solved = solve_drive(compile(read_scene(fs::path(BELTLIFE_SCENES) / "accessory_drive.toml").scene));
+  write_results(path, provenance(), {example_run()}, &life, &solved);
   const Reader file(path);
   for (const auto& [object, description] : file.objects()) {
     const auto& [is_dataset, attributes] = description;
     const std::string name = documented_spelling(object);
     EXPECT_TRUE(file.has_attribute(object, "description")) << object;
     if (name != "/") written[name] = "";
-    if (is_dataset) written[name] = name.ends_with("CHANNEL") ? "its own" : file.text(object, "unit");
+    if (is_dataset) {
+      EXPECT_TRUE(file.has_attribute(object, "unit")) << object;
+      written[name] = name.ends_with("CHANNEL") ? "its own" : file.text(object, "unit");
+    }
     for (const std::string& attribute : attributes)
       if (attribute != "unit" && attribute != "description") written[name + "@" + attribute];
   }

@@ -1,0 +1,88 @@
+// What a report page is about: see report_subject.h.
+#include "results/report_subject.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/life/loads.h"
+#include "sim/scene/scene_io.h"
+
+namespace beltlife {
+
+Subject subject_of(const ResultFile& file, const std::string& name) {
+  Subject s;
+  s.file = file;
+  s.model = compile(parse_scene(file.provenance.scene_text, name), name);
+  std::vector<RangeLoad> loads;
+  for (const RunRecord& run : s.file.runs)
+    for (const WindowRecord& window : run.windows) {
+      if (window.last_sample <= window.first_sample) continue;
+      s.ranges.push_back({&run, &window, summarise(s.model, run, window), "range-" + window.range});
+      if (window.complete && !s.model.scene.range.empty())
+        loads.push_back(range_load(s.model.scene, s.model.statics.unstretched_length, run, window));
+    }
+  if (!loads.empty()) s.life = duty_cycle_life(loads, s.model.scene.fatigue);
+  return s;
+}
+
+Governing governing(const Life& life) {
+  Governing g;
+  for (const RangeLife& range : life.ranges)
+    if (!g.range || range.damage_share > g.range->damage_share) g.range = &range;
+  if (g.range)
+    for (const PulleyLife& pulley : g.range->pulleys)
+      if (!g.pulley || pulley.damage_share > g.pulley->damage_share) g.pulley = &pulley;
+  return g;
+}
+
+bool slips(const QuasiStaticPulley& p) {
+  constexpr double rounding = 1e-6;  // a locked pulley slides at exactly 1
+  return p.slip_safety && *p.slip_safety < 1 - rounding;
+}
+
+std::vector<std::string> warnings(const Subject& s) {
+  std::vector<std::string> out;
+  for (const RunRecord& run : s.file.runs) {
+    if (!run.status.ok())
+      out.push_back(fmt::format("A run ended early: {} at {:.4f} s, {}; likely cause: {}; try: {}.",
+                                to_string(run.status.state), run.status.time_s, run.status.where, run.status.cause,
+                                run.status.advice));
+    if (run.friction_overdamped_s > 0)
+      out.push_back(
+          fmt::format("During {:.3g} s the step was too long for the friction slope, which then dissipates too much.",
+                      run.friction_overdamped_s));
+  }
+  for (const auto& range : s.ranges) {
+    if (range.summary.drift > 0.03)
+      out.push_back(fmt::format("{} has not settled: a span's mean tension changes by {:.0f} % within the window.",
+                                range.window->range, 100 * range.summary.drift));
+    if (std::abs(range.summary.energy_residual) > 0.005)
+      out.push_back(fmt::format("{}: {:.2f} % of the energy that went through is not accounted for.",
+                                range.window->range, 100 * range.summary.energy_residual));
+    for (const PulleySummary& p : range.summary.pulleys)
+      if (p.slip_percent && std::abs(*p.slip_percent) > 3)
+        out.push_back(fmt::format("{}: {} slips by {:.1f} % against the driven pulley.", range.window->range, p.name,
+                                  *p.slip_percent));
+  }
+  if (s.file.statics)
+    for (const QuasiStaticRange& range : s.file.statics->ranges) {
+      if (range.error) out.push_back(fmt::format("{}: no quasi-static solution: {}.", range.name, *range.error));
+      for (const QuasiStaticPulley& p : range.pulleys)
+        if (slips(p))
+          out.push_back(fmt::format(
+              "{}: {} needs more wrap or tension: by its quasi-static slip safety of {:.2f} the belt slips.",
+              range.name, p.name, *p.slip_safety));
+    }
+  if (s.life && s.life->error) out.push_back("No life: " + *s.life->error + ".");
+  return out;
+}
+
+std::string life_over(const Subject& s) {
+  if (s.life->ranges.size() >= s.model.scene.range.size()) return "its duty cycle";
+  std::string names;
+  for (const RangeLife& range : s.life->ranges) names += (names.empty() ? "" : ", ") + range.name;
+  return "range" + std::string(s.life->ranges.size() > 1 ? "s " : " ") + names + " alone";
+}
+
+}  // namespace beltlife
