@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/model.h"
+#include "sim/scene/pitch_line.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -43,7 +44,7 @@ void compile_pulleys(Model& m) {
     const bool front = p.side == Side::front;
     m.pulley_x.push_back(p.x_mm * 1e-3);
     m.pulley_y.push_back(p.y_mm * 1e-3);
-    m.pulley_radius.push_back(p.pitch_diameter_mm * 5e-4);
+    m.pulley_radius.push_back(pitch_diameter_mm(m.scene, p) * 5e-4);
     m.pulley_friction.push_back(p.friction.value_or(front ? m.scene.belt.friction_front : m.scene.belt.friction_back));
     m.body_name.push_back(p.name);
     m.inertia.push_back(p.inertia_kg_m2);
@@ -114,7 +115,8 @@ void compile_bodies(Model& m, std::string_view file) {
 
 void compile_train(Model& m, std::string_view file) {
   for (const auto& s : m.scene.torsional_spring)
-    m.springs.push_back({body_index(m, s.from), body_index(m, s.to), s.stiffness_n_m_per_rad, s.damping_n_m_s_per_rad});
+    m.springs.push_back({body_index(m, s.from), body_index(m, s.to), s.stiffness_n_m_per_rad, s.damping_n_m_s_per_rad,
+                         s.one_way, m.sense[body_index(m, s.from)]});
   for (const auto& g : m.scene.gear_pair) {
     const int pinion = body_index(m, g.pinion), gear = body_index(m, g.gear);
     const double half_module = g.module_mm * 5e-4;
@@ -154,6 +156,11 @@ void compile_tensioner(Model& m) {
   t.friction_torque = s.friction_torque_n_m;
   t.friction_stiffness = s.friction_stiffness_n_m_per_rad;
   t.locked = s.locked;
+  t.lengthening = m.statics.placed.length_per_arm_angle > 0 ? 1 : -1;
+  t.directional = s.damping_shortening_n_m_s_per_rad || s.friction_torque_shortening_n_m;
+  t.damping_shortening = s.damping_shortening_n_m_s_per_rad.value_or(t.damping);
+  t.friction_shortening = s.friction_torque_shortening_n_m.value_or(t.friction_torque);
+  t.stops = arm_stops_of(s, t.lengthening);
 }
 
 Coordinates at_rest(const Model& m) {
@@ -215,7 +222,7 @@ Model compile(const SceneSpec& scene, std::string_view file) {
   Model m;
   m.scene = scene;
   if (scene.ring)
-    m.statics.unstretched_length = *scene.belt.unstretched_length_mm * 1e-3;
+    m.statics.unstretched_length = *unstretched_length_mm(scene.belt) * 1e-3;
   else
     m.statics = solve_statics(scene, file);
   m.belt = compile_belt(scene.belt, m.statics.unstretched_length);
@@ -231,6 +238,7 @@ Model compile(const SceneSpec& scene, std::string_view file) {
   }
   m.initial.q = at_rest(m);
   m.initial.anchor = NodeArray(m.belt.nodes);
+  if (m.has_one_way()) m.initial.free_wheel.assign(m.springs.size(), 0.0);
   m.initial.near.assign(m.belt.nodes, -1);
   if (scene.ring) {
     check_ring(m, file);

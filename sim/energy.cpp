@@ -7,7 +7,7 @@
 namespace beltlife {
 namespace {
 
-double driver_power(const Simulator& s) {
+double driver_power(const DriveView& s) {
   const Model& m = s.model();
   const int d = m.driver.body;
   if (d < 0) return 0;
@@ -17,7 +17,7 @@ double driver_power(const Simulator& s) {
   return needed * speed;
 }
 
-void belt_powers(const Simulator& s, EnergyAccount& p) {
+void belt_powers(const DriveView& s, EnergyAccount& p) {
   const BeltModel& b = s.model().belt;
   const Work& w = s.work();
   double axial = 0;
@@ -32,7 +32,7 @@ void belt_powers(const Simulator& s, EnergyAccount& p) {
   p[Energy::lost_belt_bending] = bending * b.bending_damping / b.element_length;
 }
 
-void contact_powers(const Simulator& s, EnergyAccount& p) {
+void contact_powers(const DriveView& s, EnergyAccount& p) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   const Work& w = s.work();
@@ -53,14 +53,20 @@ void contact_powers(const Simulator& s, EnergyAccount& p) {
   p[Energy::lost_friction] = friction;
 }
 
-void train_powers(const Simulator& s, EnergyAccount& p) {
+void train_powers(const DriveView& s, EnergyAccount& p) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   for (const TorqueTable& t : m.torques) {
     const double speed = m.sense[t.body] * q.speed[t.body];
     p[Energy::work_torque_tables] += t.factor * t.torque(speed) * speed;
   }
-  for (const TorsionalSpring& k : m.springs) {
+  for (std::size_t i = 0; i < m.springs.size(); ++i) {
+    const TorsionalSpring& k = m.springs[i];
+    if (k.one_way) {
+      const double twist = std::max(one_way_twist(k, q) - s.state().free_wheel[i], 0.0), rate = one_way_rate(k, q);
+      p[Energy::lost_shafts] += (one_way_torque(k, twist, rate) - k.stiffness * twist) * rate;
+      continue;
+    }
     const double twist_rate = q.speed[k.from] - q.speed[k.to];
     p[Energy::lost_shafts] += k.damping * twist_rate * twist_rate;
   }
@@ -70,12 +76,17 @@ void train_powers(const Simulator& s, EnergyAccount& p) {
     p[Energy::lost_gears] += (gear_force(g, delta, rate) - gear_spring_force(g, delta)) * rate;
   }
   if (m.tensioner.pulley >= 0) {
-    p[Energy::lost_tensioner_damping] = m.tensioner.damping * q.arm_rate * q.arm_rate;
+    p[Energy::lost_tensioner_damping] = m.tensioner.damping_at(q.arm_rate) * q.arm_rate * q.arm_rate;
+    if (m.tensioner.stops.any()) {
+      const ArmStops& stops = m.tensioner.stops;
+      p[Energy::lost_tensioner_damping] -=
+          (stops.torque(q.arm_angle, q.arm_rate) - stops.elastic_torque(q.arm_angle)) * q.arm_rate;
+    }
     p[Energy::lost_tensioner_friction] = -s.work().arm_friction * q.arm_rate;
   }
 }
 
-double belt_stored(const Simulator& s) {
+double belt_stored(const DriveView& s) {
   const BeltModel& b = s.model().belt;
   const Coordinates& q = s.state().q;
   double kinetic = 0, strain = 0, curvature = 0;
@@ -96,7 +107,7 @@ double belt_stored(const Simulator& s) {
          0.5 / b.element_length * (b.axial_stiffness * strain + b.bending_stiffness * curvature);
 }
 
-double contact_stored(const Simulator& s, double& anchors) {
+double contact_stored(const DriveView& s, double& anchors) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   double penetration = 0, offset = 0;
@@ -112,13 +123,15 @@ double contact_stored(const Simulator& s, double& anchors) {
   return 0.5 * m.contact.stiffness * penetration + anchors;
 }
 
-double train_stored(const Simulator& s) {
+double train_stored(const DriveView& s) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   double e = 0;
   for (int b = 0; b < m.bodies; ++b) e += 0.5 * m.inertia[b] * q.speed[b] * q.speed[b];
-  for (const TorsionalSpring& k : m.springs) {
-    const double twist = q.angle[k.from] - q.angle[k.to];
+  for (std::size_t i = 0; i < m.springs.size(); ++i) {
+    const TorsionalSpring& k = m.springs[i];
+    const double twist =
+        k.one_way ? std::max(one_way_twist(k, q) - s.state().free_wheel[i], 0.0) : q.angle[k.from] - q.angle[k.to];
     e += 0.5 * k.stiffness * twist * twist;
   }
   for (const GearPair& g : m.gears) {
@@ -130,7 +143,7 @@ double train_stored(const Simulator& s) {
 
 }  // namespace
 
-EnergyAccount powers(const Simulator& s) {
+EnergyAccount powers(const DriveView& s) {
   EnergyAccount p;
   p[Energy::work_driver] = driver_power(s);
   belt_powers(s, p);
@@ -139,7 +152,7 @@ EnergyAccount powers(const Simulator& s) {
   return p;
 }
 
-StoredEnergy stored_energy(const Simulator& s) {
+StoredEnergy stored_energy(const DriveView& s) {
   const TensionerModel& t = s.model().tensioner;
   const Coordinates& q = s.state().q;
   StoredEnergy e;
@@ -148,6 +161,7 @@ StoredEnergy stored_energy(const Simulator& s) {
     e.arm_anchor = 0.5 * t.friction_stiffness * s.state().arm_anchor * s.state().arm_anchor;
     e.total += 0.5 * t.inertia * q.arm_rate * q.arm_rate - t.spring_torque * q.arm_angle +
                0.5 * t.spring_rate * q.arm_angle * q.arm_angle + e.arm_anchor;
+    if (t.stops.any()) e.total += 0.5 * t.stops.stiffness * std::pow(t.stops.depth(q.arm_angle), 2);
   }
   return e;
 }

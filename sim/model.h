@@ -1,9 +1,11 @@
 // Owns the compiled drive: constant flat numbers in SI units that the kernels read, shared by all threads.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "sim/route/arm_stops.h"
 #include "sim/route/layout.h"
 #include "sim/scene/scene.h"
 #include "sim/speed_profile.h"
@@ -36,6 +38,8 @@ struct TorsionalSpring {
   int from = 0, to = 0;  ///< bodies
   double stiffness = 0;  ///< N m/rad
   double damping = 0;    ///< N m s/rad
+  bool one_way = false;  ///< behind an overrunning clutch
+  double sense = 1;      ///< running sense of both ends
 };
 
 struct GearPair {
@@ -63,6 +67,17 @@ struct TensionerModel {
   double friction_torque = 0;     ///< N m
   double friction_stiffness = 0;  ///< N m/rad
   bool locked = false;
+  double lengthening = 1;          ///< +1 where turning counterclockwise lengthens the belt path, else -1
+  bool directional = false;        ///< the two below act while the path shortens, those above while it lengthens
+  double damping_shortening = 0;   ///< N m s/rad
+  double friction_shortening = 0;  ///< N m
+  ArmStops stops;
+
+  /// Viscous damping of an arm that turns at this rate, and dry friction against turning in this sense.
+  double damping_at(double rate) const { return directional && lengthening * rate < 0 ? damping_shortening : damping; }
+  double friction_against(double sense) const {
+    return directional && lengthening * sense < 0 ? friction_shortening : friction_torque;
+  }
 };
 
 struct DriverModel {
@@ -102,6 +117,10 @@ struct Model {
 
   State initial;  ///< at rest in static balance
 
+  /// Whether some torsional spring overruns.
+  bool has_one_way() const {
+    return std::any_of(springs.begin(), springs.end(), [](const TorsionalSpring& s) { return s.one_way; });
+  }
   bool prescribed() const { return driver.body >= 0 && driver.control == Control::prescribed; }
 };
 

@@ -57,14 +57,18 @@ std::vector<Channel> channels_of(const Model& m) {
     add(pulley + ".hub_load_x_n", "N", "force of the belt on the pulley");
     add(pulley + ".hub_load_y_n", "N", "force of the belt on the pulley");
   }
-  for (const auto& s : m.scene.torsional_spring)
+  for (const auto& s : m.scene.torsional_spring) {
     add("spring." + s.name + ".torque_n_m", "N m", "torque from " + s.from + " to " + s.to + ", in the running sense");
+    if (s.one_way)
+      add("spring." + s.name + ".overrun_rad", "rad", "how far " + s.to + " has run ahead of " + s.from + " so far");
+  }
   for (const auto& g : m.scene.gear_pair)
     add("gear_pair." + g.name + ".force_n", "N", "tooth force, positive when the pinion drives");
   if (m.tensioner.pulley >= 0) {
     add("tensioner.arm_angle_rad", "rad", "from where the scene places the arm, counterclockwise");
     add("tensioner.arm_rate_rad_s", "rad/s", "counterclockwise");
     add("tensioner.friction_torque_n_m", "N m", "dry friction on the arm, counterclockwise");
+    if (m.tensioner.stops.any()) add("tensioner.stop_torque_n_m", "N m", "stops on the arm, counterclockwise");
   }
   return c;
 }
@@ -76,7 +80,7 @@ Sensors::Sensors(const Model& m) {
   if (!circles_.empty()) make_route(circles_, route_);
 }
 
-void Sensors::spans(const Simulator& s, std::vector<Channel>& channels, std::size_t& at) {
+void Sensors::spans(const DriveView& s, std::vector<Channel>& channels, std::size_t& at) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   if (m.tensioner.pulley >= 0) {
@@ -116,7 +120,7 @@ void Sensors::spans(const Simulator& s, std::vector<Channel>& channels, std::siz
   }
 }
 
-void Sensors::sample(const Simulator& s, std::vector<Channel>& channels) {
+void Sensors::sample(const DriveView& s, std::vector<Channel>& channels) {
   const Model& m = s.model();
   const Coordinates& q = s.state().q;
   const Work& w = s.work();
@@ -162,12 +166,16 @@ void Sensors::sample(const Simulator& s, std::vector<Channel>& channels) {
     put(channels, at, w.hub_x[p]);
     put(channels, at, w.hub_y[p]);
   }
-  for (std::size_t i = 0; i < m.springs.size(); ++i) put(channels, at, m.sense[m.springs[i].from] * w.spring_torque[i]);
+  for (std::size_t i = 0; i < m.springs.size(); ++i) {
+    put(channels, at, m.sense[m.springs[i].from] * w.spring_torque[i]);
+    if (m.springs[i].one_way) put(channels, at, -s.state().free_wheel[i]);
+  }
   for (double f : w.gear_force) put(channels, at, f);
   if (m.tensioner.pulley >= 0) {
     put(channels, at, q.arm_angle);
     put(channels, at, q.arm_rate);
     put(channels, at, w.arm_friction);
+    if (m.tensioner.stops.any()) put(channels, at, w.arm_stop_torque);
   }
 }
 

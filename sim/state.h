@@ -30,6 +30,7 @@ struct State {
   std::int64_t step = 0;
   Coordinates q;
   NodeArray anchor;                      ///< friction anchors: tangential offset delta of each node, m
+  std::vector<double> free_wheel;        ///< by spring, if some are one-way: twist at which the clutch engages, rad
   double arm_anchor = 0;                 ///< twist of the tensioner's dry-friction anchor spring, rad
   std::vector<int> near;                 ///< pulley that a node may touch, -1 on a span
   std::vector<ContactSegment> segments;  ///< the same, as runs of nodes
@@ -49,8 +50,9 @@ struct Work {
   NodeArray moment;          ///< bending moment at node i, N m (drives with bending only)
   NodeArray fx, fy;          ///< total force on node i, N
 
-  NodeArray normal, tangential;  ///< contact forces on node i, N; tangential counterclockwise positive
-  NodeArray slip;                ///< tangential velocity relative to the pulley surface, m/s
+  NodeArray normal, tangential;            ///< contact forces on node i, N; tangential counterclockwise positive
+  NodeArray slip;                          ///< tangential velocity relative to the pulley surface, m/s
+  NodeArray normal_peak, tangential_peak;  ///< largest since last observed (linearly implicit scheme only)
   NodeArray contact_x, contact_y, contact_moment;  ///< contact force and its moment about the pulley centre
 
   std::vector<double> torque;         ///< on bodies, N m
@@ -60,6 +62,7 @@ struct Work {
   std::vector<double> gear_force;     ///< along the line of action, N
   double arm_torque = 0;              ///< on the tensioner arm, N m
   double arm_friction = 0;            ///< of it, from dry friction, N m
+  double arm_stop_torque = 0;         ///< of it, from the arm's stops, N m
   double arm_slip = 0;                ///< arm rate of the previous pass, rad/s
   double driver_torque = 0;           ///< of a PID driver, N m
 };

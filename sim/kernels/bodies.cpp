@@ -21,6 +21,26 @@ void torsional_springs(Evaluation& e) {
   }
 }
 
+// An overrunning clutch in series: it engages at the least twist so far, so that `to` may run ahead of `from` freely
+// and is driven again as soon as `from` gains on it. That least twist is history, kept in a committing pass only.
+void torsional_springs_one_way(Evaluation& e) {
+  const auto& springs = e.model.springs;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const TorsionalSpring& s = springs[i];
+    double t = 0;
+    if (s.one_way) {
+      const double twist = one_way_twist(s, e.q), engaged = std::min(e.state.free_wheel[i], twist);
+      if (e.pass.commit) e.state.free_wheel[i] = engaged;
+      t = s.sense * one_way_torque(s, twist - engaged, one_way_rate(s, e.q));
+    } else {
+      t = s.stiffness * (e.q.angle[s.from] - e.q.angle[s.to]) + s.damping * (e.q.speed[s.from] - e.q.speed[s.to]);
+    }
+    e.work.spring_torque[i] = t;
+    e.work.torque[s.from] -= t;
+    e.work.torque[s.to] += t;
+  }
+}
+
 double gear_spring_force(const GearPair& g, double delta) {
   if (delta > g.half_backlash) return g.stiffness * (delta - g.half_backlash);
   if (delta < -g.half_backlash) return g.stiffness * (delta + g.half_backlash);
@@ -57,20 +77,42 @@ void torque_tables(Evaluation& e) {
   }
 }
 
+namespace {
+
 // Belt on the arm's pulley, spring, viscous damping, and dry friction through an anchor spring that yields at the
-// friction torque: below it the arm truly sticks.
-void tensioner_arm(Evaluation& e) {
+// friction torque, `low` < 0 < `high` for the two senses: below it the arm truly sticks.
+void turn_arm(Evaluation& e, double damping, double low, double high) {
   const TensionerModel& t = e.model.tensioner;
   const double cos = std::cos(e.q.arm_angle), sin = std::sin(e.q.arm_angle);
   const double rx = cos * t.arm_x - sin * t.arm_y, ry = sin * t.arm_x + cos * t.arm_y;
   double torque = rx * e.work.hub_y[t.pulley] - ry * e.work.hub_x[t.pulley];
-  torque += t.spring_torque - t.spring_rate * e.q.arm_angle - t.damping * e.q.arm_rate;
+  torque += t.spring_torque - t.spring_rate * e.q.arm_angle - damping * e.q.arm_rate;
   const double twist = e.state.arm_anchor + e.pass.old_weight * e.work.arm_slip + e.pass.new_weight * e.q.arm_rate;
-  const double friction = std::clamp(t.friction_stiffness * twist, -t.friction_torque, t.friction_torque);
+  const double friction = std::clamp(t.friction_stiffness * twist, low, high);
   if (e.pass.commit) e.state.arm_anchor = friction / t.friction_stiffness;
   e.work.arm_slip = e.q.arm_rate;
   e.work.arm_friction = -friction;
   e.work.arm_torque = torque - friction;
+}
+
+}  // namespace
+
+void tensioner_arm(Evaluation& e) {
+  const TensionerModel& t = e.model.tensioner;
+  turn_arm(e, t.damping, -t.friction_torque, t.friction_torque);
+}
+
+// A tensioner damped by the sense of its motion: the viscous damping is that of the sense in which the arm turns, the
+// dry friction that of the sense in which its anchor spring is twisted.
+void tensioner_arm_directional(Evaluation& e) {
+  const TensionerModel& t = e.model.tensioner;
+  turn_arm(e, t.damping_at(e.q.arm_rate), -t.friction_against(-1), t.friction_against(1));
+}
+
+// Beyond a stop's angle k (angle - stop) + c rate holds the arm back, and never pulls it.
+void arm_stops(Evaluation& e) {
+  e.work.arm_stop_torque = e.model.tensioner.stops.torque(e.q.arm_angle, e.q.arm_rate);
+  e.work.arm_torque += e.work.arm_stop_torque;
 }
 
 // Thesis 3.3.1: a controller drives the crank along its profile.
@@ -92,10 +134,16 @@ std::vector<Kernel> force_program(const Model& m) {
   list.push_back({"belt forces", belt_forces});
   if (m.bodies > 0) list.push_back({"clear torques", clear_torques});
   if (m.pulleys > 0) list.push_back({"contact", contact});
-  if (!m.springs.empty()) list.push_back({"torsional springs", torsional_springs});
+  if (!m.springs.empty())
+    list.push_back(m.has_one_way() ? Kernel{"torsional springs, one-way", torsional_springs_one_way}
+                                   : Kernel{"torsional springs", torsional_springs});
   if (!m.gears.empty()) list.push_back({"gear mesh", gear_mesh});
   if (!m.torques.empty()) list.push_back({"torque tables", torque_tables});
-  if (m.tensioner.pulley >= 0 && !m.tensioner.locked) list.push_back({"tensioner arm", tensioner_arm});
+  if (m.tensioner.pulley >= 0 && !m.tensioner.locked) {
+    list.push_back(m.tensioner.directional ? Kernel{"tensioner arm, directional", tensioner_arm_directional}
+                                           : Kernel{"tensioner arm", tensioner_arm});
+    if (m.tensioner.stops.any()) list.push_back({"arm stops", arm_stops});
+  }
   if (m.driver.body >= 0 && m.driver.control == Control::pid) list.push_back({"pid driver", pid_driver});
   return list;
 }

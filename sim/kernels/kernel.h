@@ -63,9 +63,12 @@ void contact(Evaluation& e);
 // Bodies.
 void clear_torques(Evaluation& e);
 void torsional_springs(Evaluation& e);
+void torsional_springs_one_way(Evaluation& e);  ///< all springs, where some are one-way
 void gear_mesh(Evaluation& e);
 void torque_tables(Evaluation& e);
 void tensioner_arm(Evaluation& e);
+void tensioner_arm_directional(Evaluation& e);  ///< damping and friction by the sense in which the arm turns
+void arm_stops(Evaluation& e);                  ///< after either
 void pid_driver(Evaluation& e);
 
 /// Normal force of one node at penetration d (m), approaching at `rate` (m/s): A (k_p d + c_p d') or, separating,
@@ -73,6 +76,19 @@ void pid_driver(Evaluation& e);
 [[gnu::always_inline]] inline double normal_force(const ContactModel& c, double d, double rate) {
   const double pressed = std::max(c.stiffness * d + (rate >= 0 ? c.damping : c.separation_damping) * rate, 0.0);
   return d > 0 ? pressed : 0.0;
+}
+
+/// Torque (N m, running sense) of a one-way spring twisted by `twist` beyond where its clutch engages: the spring and
+/// damper's, never below 0 and 0 without twist.
+inline double one_way_torque(const TorsionalSpring& s, double twist, double rate) {
+  return twist > 0 ? std::max(s.stiffness * twist + s.damping * rate, 0.0) : 0.0;
+}
+/// Twist of a one-way spring (rad, running sense) from `from` ahead of `to`, clutch included, and its rate.
+inline double one_way_twist(const TorsionalSpring& s, const Coordinates& q) {
+  return s.sense * (q.angle[s.from] - q.angle[s.to]);
+}
+inline double one_way_rate(const TorsionalSpring& s, const Coordinates& q) {
+  return s.sense * (q.speed[s.from] - q.speed[s.to]);
 }
 
 /// Elastic part of the tooth force (N) at the offset delta (m) along the line of action.

@@ -9,6 +9,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "sim/scene/pitch_line.h"
+
 namespace beltlife {
 
 namespace {
@@ -64,7 +66,7 @@ void set_belt_speed(const SceneSpec& scene, const RunRecord& run, const WindowRe
   const auto turning = std::ranges::find(scene.pulley, false, &PulleySpec::locked);
   if (!driver_is_pulley && turning == scene.pulley.end()) return;
   const PulleySpec& pulley = driver_is_pulley ? *driven : *turning;
-  load.driver_radius_m = pulley.pitch_diameter_mm * 0.5e-3;
+  load.driver_radius_m = pitch_diameter_mm(scene, pulley) * 0.5e-3;
   load.driver_rpm =
       std::abs(driver_is_pulley ? window.crank_rpm : extent(run.trace, window, pulley.name + ".speed_rpm").mean);
   load.belt_speed_m_s = std::numbers::pi * 2 * load.driver_radius_m * load.driver_rpm / 60;
@@ -102,7 +104,7 @@ RangeLoad range_load(const SceneSpec& scene, double unstretched_length_m, const 
     PulleyLoad& pulley = load.pulleys.emplace_back();
     pulley.name = spec.name;
     pulley.side = spec.side;
-    pulley.radius_m = spec.pitch_diameter_mm * 0.5e-3;
+    pulley.radius_m = pitch_diameter_mm(scene, spec) * 0.5e-3;
     pulley.tension_high_n = before_is_high ? before.high : after.high;
     pulley.tension_low_n = before_is_high ? after.low : before.low;
     summarise(passes.normal_sampled, passes.normal_resolved, pulley.normal_n);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "sim/scene/pitch_line.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -62,13 +63,14 @@ double distance_to_span(const Span& span, double x, double y) {
   return std::hypot(x - span.from.x - c * span.direction.x, y - span.from.y - c * span.direction.y);
 }
 
-// Torque with which spring and belt turn the arm counterclockwise; zero at balance. The spring acts in the
-// path-lengthening sense `sense`: torque at the placed position plus rate x rotation in the path-shortening sense.
+// Torque with which spring and stops turn the arm counterclockwise. The spring acts in the path-lengthening sense
+// `sense`: torque at the placed position plus rate x rotation in the path-shortening sense.
 struct Arm {
   const TensionerSpec& spec;
   double sense;
-  double spring_torque(double angle) const {
-    return sense * spec.spring_torque_n_m - spec.spring_rate_n_m_per_rad * angle;
+  ArmStops stops = arm_stops_of(spec, sense);
+  double torque(double angle) const {
+    return sense * spec.spring_torque_n_m - spec.spring_rate_n_m_per_rad * angle + stops.elastic_torque(angle);
   }
 };
 
@@ -157,14 +159,22 @@ void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, 
   if (!problems.empty()) throw BadInput(std::move(problems));
 }
 
+// The field that states the belt's length, and what to add to lengths in refusals.
+std::string length_key(const SceneSpec& scene) {
+  return scene.belt.effective_length_mm ? "belt.effective_length_mm" : "belt.unstretched_length_mm";
+}
+const char* along_cord(const SceneSpec& scene) {
+  return scene.belt.effective_length_mm ? " along the cord without tension" : "";
+}
+
 // A polyester or aramid cord breaks at a few per cent.
-void refuse_overstretched(const StaticState& s, std::string_view file) {
+void refuse_overstretched(const SceneSpec& scene, const StaticState& s, std::string_view file) {
   const double strain = s.balance.route.length / s.unstretched_length - 1;
   if (strain > 0.1)
-    refuse(file, "belt.unstretched_length_mm",
+    refuse(file, length_key(scene),
            fmt::format("the belt would be stretched by {:.0f} % at rest and carry {:.0f} N", 100 * strain,
                        s.balance.tension),
-           fmt::format("at least {:.0f} mm for this layout", 1e3 * s.balance.route.length / 1.1));
+           fmt::format("at least {:.0f} mm{} for this layout", 1e3 * s.balance.route.length / 1.1, along_cord(scene)));
 }
 
 }  // namespace
@@ -176,8 +186,8 @@ std::string span_name(const SceneSpec& scene, std::size_t i) {
 std::vector<Circle> circles_of(const SceneSpec& scene, int orientation, double arm_angle) {
   std::vector<Circle> circles;
   for (const auto& p : scene.pulley)
-    circles.push_back(
-        {p.x_mm * 1e-3, p.y_mm * 1e-3, p.pitch_diameter_mm * 5e-4, p.side == Side::front ? orientation : -orientation});
+    circles.push_back({p.x_mm * 1e-3, p.y_mm * 1e-3, pitch_diameter_mm(scene, p) * 5e-4,
+                       p.side == Side::front ? orientation : -orientation});
   if (scene.tensioner) {
     Circle& c = circles[pulley_index(scene, scene.tensioner->pulley)];
     const double px = scene.tensioner->pivot_x_mm * 1e-3, py = scene.tensioner->pivot_y_mm * 1e-3;
@@ -241,14 +251,14 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
   }
   s.placed = layout_at(scene, s.orientation, 0);
   const auto tension_of = [&](double length) { return ea * (length / s.unstretched_length - 1); };
-  if (scene.belt.unstretched_length_mm) s.unstretched_length = *scene.belt.unstretched_length_mm * 1e-3;
+  if (const auto length = unstretched_length_mm(scene.belt)) s.unstretched_length = *length * 1e-3;
 
   if (!scene.tensioner) {
     if (scene.belt.pretension_n) s.unstretched_length = s.placed.route.length / (1 + *scene.belt.pretension_n / ea);
     s.placed.tension = s.placed_strain_tension = tension_of(s.placed.route.length);
     s.placed_unstretched_length = s.unstretched_length;
     s.balance = s.placed;
-    refuse_overstretched(s, file);
+    refuse_overstretched(scene, s, file);
     return s;
   }
 
@@ -258,7 +268,7 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
            "a pivot off the line of the tensioner pulley's hub load");
   const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0};
 
-  s.placed.tension = arm.spring_torque(0) / gradient;
+  s.placed.tension = arm.torque(0) / gradient;
   s.placed_unstretched_length = s.placed.route.length / (1 + s.placed.tension / ea);
 
   double angle = 0;
@@ -270,28 +280,31 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
       if (std::isnan(l.route.length)) return std::nan("");
       const double tension =
           scene.belt.pretension_n ? *scene.belt.pretension_n : std::max(tension_of(l.route.length), 0.0);
-      return arm.spring_torque(a) - tension * l.length_per_arm_angle;
+      return arm.torque(a) - tension * l.length_per_arm_angle;
     };
     if (!root_near_zero(imbalance, std::numbers::pi, angle))
-      refuse(file, scene.belt.pretension_n ? "belt.pretension_n" : "belt.unstretched_length_mm",
-             scene.belt.pretension_n
-                 ? fmt::format("no arm angle gives a tension of {:g} N at rest", *scene.belt.pretension_n)
-                 : fmt::format("no arm angle balances a belt of {:g} mm", 1e3 * s.unstretched_length),
-             fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N",
-                         1e3 * s.placed.route.length, s.placed.tension));
+      refuse(
+          file, scene.belt.pretension_n ? "belt.pretension_n" : length_key(scene),
+          scene.belt.pretension_n
+              ? fmt::format("no arm angle gives a tension of {:g} N at rest", *scene.belt.pretension_n)
+              : fmt::format("no arm angle balances a belt of {:g} mm{}", 1e3 * s.unstretched_length, along_cord(scene)),
+          fmt::format("as placed, the belt path is {:.1f} mm and the spring holds {:.0f} N",
+                      1e3 * s.placed.route.length, s.placed.tension));
     if (scene.belt.pretension_n)
       s.unstretched_length = layout_at(scene, s.orientation, angle).route.length / (1 + *scene.belt.pretension_n / ea);
   }
   s.placed_strain_tension = tension_of(s.placed.route.length);
   s.balance = layout_at(scene, s.orientation, angle);
   s.balance.tension = tension_of(s.balance.route.length);
+  s.balance.stop = arm.stops.at(angle, arm.sense);
   if (s.balance.tension < -1e-6 * ea)
-    refuse(file, "belt.unstretched_length_mm",
-           fmt::format("the belt is slack: even where the arm's spring runs out it is {:.1f} mm longer than its path",
+    refuse(file, length_key(scene),
+           fmt::format("the belt is slack: even where the arm{} it is {:.1f} mm longer than its path",
+                       s.balance.stop == ArmStop::none ? "'s spring runs out" : " meets its stop",
                        1e3 * (s.unstretched_length - s.balance.route.length)),
-           fmt::format("less than {:.1f} mm for this tensioner", 1e3 * s.balance.route.length));
+           fmt::format("less than {:.1f} mm{} for this tensioner", 1e3 * s.balance.route.length, along_cord(scene)));
   refuse_infeasible(scene, s.balance.route, true, file, " where the tensioner comes to rest");
-  refuse_overstretched(s, file);
+  refuse_overstretched(scene, s, file);
   return s;
 }
 

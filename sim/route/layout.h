@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/route/arm_stops.h"
 #include "sim/route/route.h"
 #include "sim/scene/scene.h"
 
@@ -24,6 +25,7 @@ struct Layout {
   Route route;
   double tension = 0;               ///< uniform static tension, N
   double length_per_arm_angle = 0;  ///< d(path length)/d(arm angle), m/rad; 0 without tensioner
+  ArmStop stop = ArmStop::none;     ///< against which the arm rests
 };
 
 /// Both readings of a layout: as the scene places the arm, and in balance.

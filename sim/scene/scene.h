@@ -27,10 +27,10 @@ struct EnumNames<Control> {
   static constexpr std::array<std::string_view, 2> names{"prescribed", "pid"};
 };
 
-enum class Scheme { thesis, symplectic_euler };
+enum class Scheme { thesis, symplectic_euler, linearly_implicit };
 template <>
 struct EnumNames<Scheme> {
-  static constexpr std::array<std::string_view, 2> names{"thesis", "symplectic_euler"};
+  static constexpr std::array<std::string_view, 3> names{"thesis", "symplectic_euler", "linearly_implicit"};
 };
 
 /// Which of the recorded contact forces the stresses use: the mean over passes of the largest 1000 Hz sample, the
@@ -44,6 +44,9 @@ struct EnumNames<PassForce> {
 struct BeltSpec {
   int elements = 512;
   std::optional<double> unstretched_length_mm;
+  std::optional<double> effective_length_mm;
+  std::optional<double> measuring_tension_n;
+  std::optional<double> effective_line_differential_mm;
   std::optional<double> pretension_n;
   std::optional<bool> balanced_as_placed;
   double axial_stiffness_n = 0;
@@ -60,7 +63,14 @@ struct BeltSpec {
   void visit(V& v) {
     v("elements", elements, within(16, 20000), "number of belt elements (and of nodes)");
     v("unstretched_length_mm", unstretched_length_mm, above(0, 1e5),
-      "belt length without tension; give exactly one of this, pretension_n, balanced_as_placed");
+      "belt length along the cord without tension; give exactly one of this, effective_length_mm, pretension_n, "
+      "balanced_as_placed");
+    v("effective_length_mm", effective_length_mm, above(0, 1e5),
+      "belt length as catalogues state it (ISO 9981); along the cord it is 2 pi effective_line_differential_mm longer");
+    v("measuring_tension_n", measuring_tension_n, within(0, 1e5),
+      "tension of either strand at which effective_length_mm is measured: half the standard's measuring force");
+    v("effective_line_differential_mm", effective_line_differential_mm, within(0, 100),
+      "b_e, distance of the cord from the effective diameter (ISO 9981); needed where an effective value is given");
     v("pretension_n", pretension_n, above(0, 1e6), "wanted tension at rest; the unstretched length is solved for");
     v("balanced_as_placed", balanced_as_placed, any_text,
       "true: the tensioner is at rest where its pulley is placed; the unstretched length is solved for");
@@ -102,7 +112,8 @@ struct PulleySpec {
   std::string name;
   double x_mm = 0;
   double y_mm = 0;
-  double pitch_diameter_mm = 0;
+  std::optional<double> pitch_diameter_mm;
+  std::optional<double> effective_diameter_mm;
   Side side = Side::front;
   double inertia_kg_m2 = 0;
   double mass_kg = 0;
@@ -114,7 +125,11 @@ struct PulleySpec {
     v("name", name, required_text, "unique among pulleys and bodies");
     v("x_mm", x_mm, required(within(-1e5, 1e5)), "centre; of the tensioner pulley: where the scene places it");
     v("y_mm", y_mm, required(within(-1e5, 1e5)), "centre");
-    v("pitch_diameter_mm", pitch_diameter_mm, required(above(0, 1e5)), "twice the contact radius, on both belt sides");
+    v("pitch_diameter_mm", pitch_diameter_mm, above(0, 1e5),
+      "twice the contact radius, on both belt sides; give exactly one of this, effective_diameter_mm");
+    v("effective_diameter_mm", effective_diameter_mm, above(0, 1e5),
+      "of a front-side pulley, as catalogues state it (ISO 9981); the pitch diameter is 2 "
+      "effective_line_differential_mm larger");
     v("side", side, required_text, "belt side that touches the pulley: front is ribbed");
     v("inertia_kg_m2", inertia_kg_m2, required(above(0, 1e4)), "about its own axis");
     v("mass_kg", mass_kg, within(0, 1e4), "matters on the tensioner arm only");
@@ -135,6 +150,12 @@ struct TensionerSpec {
   double damping_n_m_s_per_rad = 0;
   double friction_torque_n_m = 0;
   double friction_stiffness_n_m_per_rad = 3e4;
+  std::optional<double> damping_shortening_n_m_s_per_rad;
+  std::optional<double> friction_torque_shortening_n_m;
+  std::optional<double> stop_lengthening_deg;
+  std::optional<double> stop_shortening_deg;
+  double stop_stiffness_n_m_per_rad = 3e4;
+  double stop_damping_n_m_s_per_rad = 10;
   bool locked = false;
 
   template <class V>
@@ -153,6 +174,17 @@ struct TensionerSpec {
     v("friction_torque_n_m", friction_torque_n_m, within(0, 1e5), "dry friction at the pivot");
     v("friction_stiffness_n_m_per_rad", friction_stiffness_n_m_per_rad, above(0, 1e9),
       "stiffness of the anchor spring through which the dry friction sticks");
+    v("damping_shortening_n_m_s_per_rad", damping_shortening_n_m_s_per_rad, within(0, 1e4),
+      "viscous damping while the arm turns so that the belt path shortens; absent: the same both ways");
+    v("friction_torque_shortening_n_m", friction_torque_shortening_n_m, within(0, 1e5),
+      "dry friction against turning so that the belt path shortens; absent: the same both ways");
+    v("stop_lengthening_deg", stop_lengthening_deg, within(0, 180),
+      "rotation from the placed position, in the sense that lengthens the belt path, to a stop; absent: no stop");
+    v("stop_shortening_deg", stop_shortening_deg, within(0, 180),
+      "rotation from the placed position, in the sense that shortens the belt path, to a stop; absent: no stop");
+    v("stop_stiffness_n_m_per_rad", stop_stiffness_n_m_per_rad, above(0, 1e9), "stiffness of the arm's stops");
+    v("stop_damping_n_m_s_per_rad", stop_damping_n_m_s_per_rad, within(0, 1e6),
+      "damping of the arm's stops while the arm touches them; a stop never pulls");
     v("locked", locked, any_text, "true: the arm cannot turn; it stays at its balance");
   }
 };
@@ -174,6 +206,7 @@ struct TorsionalSpringSpec {
   std::string to;
   double stiffness_n_m_per_rad = 0;
   double damping_n_m_s_per_rad = 0;
+  bool one_way = false;
 
   template <class V>
   void visit(V& v) {
@@ -182,6 +215,8 @@ struct TorsionalSpringSpec {
     v("to", to, required_text, "pulley or body at the other end");
     v("stiffness_n_m_per_rad", stiffness_n_m_per_rad, required(above(0, 1e12)), "torsional stiffness");
     v("damping_n_m_s_per_rad", damping_n_m_s_per_rad, within(0, 1e9), "torsional damping");
+    v("one_way", one_way, any_text,
+      "true: behind an overrunning clutch; drives `to` in the running sense only, and lets it run ahead of `from`");
   }
 };
 

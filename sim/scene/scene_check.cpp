@@ -37,6 +37,7 @@ class SceneCheck {
   void run() {
     check_limits();
     check_names();
+    check_diameters();
     check_bodies();
     check_connections();
     check_tables();
@@ -107,7 +108,8 @@ class SceneCheck {
   void refer(const SpecPath& path, const std::string& name, const Names& names) {
     if (!names.known || names.has(name)) return;
     complain(path, fmt::format("there is no {} '{}'{}", names.kind, name, did_you_mean(name, names.names)),
-             joined(names.names));
+             names.names.empty() ? fmt::format("the name of a {}, of which there are none", names.kind)
+                                 : joined(names.names));
   }
 
   const PulleySpec* pulley(std::string_view name) const {
@@ -115,6 +117,32 @@ class SceneCheck {
       if (pulley.name == name) return &pulley;
     }
     return nullptr;
+  }
+
+  void check_diameters() {
+    const SpecPath belt = SpecPath{}.child("belt");
+    const SpecPath line = belt.child("effective_line_differential_mm");
+    std::string user;  // the first field that needs it
+    if (scene_.belt.effective_length_mm) user = belt.child("effective_length_mm").shown;
+    for (std::size_t i = 0; i < scene_.pulley.size(); ++i) {
+      const PulleySpec& p = scene_.pulley[i];
+      const SpecPath path = SpecPath{}.child("pulley").element(i, p.name);
+      const SpecPath pitch = path.child("pitch_diameter_mm"), effective = path.child("effective_diameter_mm");
+      if (p.effective_diameter_mm && user.empty()) user = effective.shown;
+      if (log_.is_faulty(pitch.place) || log_.is_faulty(effective.place)) continue;
+      if (!p.pitch_diameter_mm && !p.effective_diameter_mm) {
+        complain(pitch, "missing key", "exactly one of pitch_diameter_mm, effective_diameter_mm");
+      } else if (p.pitch_diameter_mm && p.effective_diameter_mm) {
+        complain(effective, "pitch_diameter_mm is given too", "exactly one of the two");
+      } else if (p.effective_diameter_mm && p.side == Side::back && !log_.is_faulty(path.child("side").place)) {
+        complain(effective, "a pulley on the belt's back has no effective diameter",
+                 "pitch_diameter_mm: the outside diameter plus twice the distance from the back to the cord");
+      }
+    }
+    if (!user.empty() && !scene_.belt.effective_line_differential_mm) {
+      complain(line, fmt::format("missing key: {} is an effective value", user),
+               "for the PK section 2, or pitch values");
+    }
   }
 
   void check_bodies() {
@@ -197,16 +225,22 @@ class SceneCheck {
   void check_belt() {
     const SpecPath belt = SpecPath{}.child("belt");
     const SpecPath length = belt.child("unstretched_length_mm");
+    const SpecPath effective = belt.child("effective_length_mm");
     const SpecPath pretension = belt.child("pretension_n");
     const SpecPath balanced = belt.child("balanced_as_placed");
     const bool is_balanced = scene_.belt.balanced_as_placed.value_or(false);  // false says no more than absence
-    const bool readable =
-        !log_.is_faulty(length.place) && !log_.is_faulty(pretension.place) && !log_.is_faulty(balanced.place);
-    const int given =
-        scene_.belt.unstretched_length_mm.has_value() + scene_.belt.pretension_n.has_value() + is_balanced;
+    const bool readable = !log_.is_faulty(length.place) && !log_.is_faulty(effective.place) &&
+                          !log_.is_faulty(pretension.place) && !log_.is_faulty(balanced.place);
+    const bool has_length = scene_.belt.unstretched_length_mm || scene_.belt.effective_length_mm;
+    const int given = scene_.belt.unstretched_length_mm.has_value() + scene_.belt.effective_length_mm.has_value() +
+                      scene_.belt.pretension_n.has_value() + is_balanced;
     if (readable && given != 1) {
-      complain(length, fmt::format("{} of three ways to state the belt's length are given", given),
-               "exactly one of unstretched_length_mm, pretension_n, balanced_as_placed = true");
+      complain(length, fmt::format("{} of four ways to state the belt's length are given", given),
+               "exactly one of unstretched_length_mm, effective_length_mm, pretension_n, balanced_as_placed = true");
+    }
+    if (scene_.belt.measuring_tension_n && readable && !scene_.belt.effective_length_mm) {
+      complain(belt.child("measuring_tension_n"), "there is no effective length that was measured with it",
+               "effective_length_mm beside it");
     }
     if (is_balanced && !scene_.tensioner && !log_.is_faulty("tensioner")) {
       complain(balanced, "needs a tensioner, and there is none", "a [tensioner], or the length or tension of the belt");
@@ -217,7 +251,7 @@ class SceneCheck {
     }
     if (!scene_.ring) return;
     if (!scene_.pulley.empty()) complain(pulleys, "a scene with [ring] has no pulleys", "no [[pulley]]");
-    if (readable && given == 1 && !scene_.belt.unstretched_length_mm) {
+    if (readable && given == 1 && !has_length) {
       complain(is_balanced ? balanced : pretension, "a [ring] has no pulleys to fit", "unstretched_length_mm");
     }
   }

@@ -110,13 +110,14 @@ SceneFile read_scene(const std::filesystem::path& path, const std::vector<std::s
 
 BadInput located(const SceneFile& file, const BadInput& bad) {
   SceneSpec copy = file.scene;  // visit() is not const
+  ReadLog log;
+  log.lines = file.lines;
   std::vector<Problem> problems = bad.problems();
   for (Problem& problem : problems) {
     if (problem.line > 0) continue;
-    at_path(copy, problem.key, [&](auto&, const Rule&, const std::string& place) {
-      const auto line = file.lines.find(place);
-      if (line != file.lines.end()) problem.line = line->second;
-    });
+    std::string where = problem.key;  // a whole list, "pulley", stands where it says
+    at_path(copy, problem.key, [&](auto&, const Rule&, const std::string& place) { where = place; });
+    problem.line = log.line(where);  // of a field that the file leaves out: its table's
   }
   return BadInput(std::move(problems));
 }

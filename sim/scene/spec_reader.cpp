@@ -34,7 +34,7 @@ bool ReadLog::is_faulty(std::string place) const {
 void SpecReader::refuse_unknown_keys() {
   for (const TomlEntry& entry : table_.entries) {
     if (std::find(keys_.begin(), keys_.end(), entry.key) != keys_.end()) continue;
-    const SpecPath path = path_.child(entry.key);
+    const SpecPath path = path_.child(entry.key.empty() ? "\"\"" : entry.key);  // TOML allows an empty key
     log_.add(path, entry.line, "unknown key" + did_you_mean(entry.key, keys_), joined(keys_));
     // The key that was probably meant is as good as faulty: without it, later checks would find it missing once more.
     const std::string_view meant = nearest(entry.key, keys_);

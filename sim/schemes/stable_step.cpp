@@ -86,10 +86,14 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme) {
              g.pinion_radius * g.pinion_radius * m.inverse_inertia[g.pinion] +
                  g.gear_radius * g.gear_radius * m.inverse_inertia[g.gear]);
   }
-  if (m.tensioner.pulley >= 0 && !m.tensioner.locked)
-    out.push_back({"tensioner arm", "w^2 = (rate + friction anchor)/J, c = damping/J",
-                   mode_limit((m.tensioner.spring_rate + m.tensioner.friction_stiffness) / m.tensioner.inertia,
-                              m.tensioner.damping / m.tensioner.inertia)});
+  if (const TensionerModel& t = m.tensioner; t.pulley >= 0 && !t.locked) {
+    const double k = t.spring_rate + t.friction_stiffness, c = std::max(t.damping_at(1), t.damping_at(-1));
+    out.push_back(
+        {"tensioner arm", "w^2 = (rate + friction anchor)/J, c = damping/J", mode_limit(k / t.inertia, c / t.inertia)});
+    if (t.stops.any())
+      out.push_back({"tensioner arm on a stop", "w^2 = (rate + friction anchor + stop)/J, c = (damping + stop)/J",
+                     mode_limit((k + t.stops.stiffness) / t.inertia, (c + t.stops.damping) / t.inertia)});
+  }
   if (m.driver.body >= 0 && !m.prescribed())
     out.push_back({"pid driver", "w^2 = angle gain/J, c = speed gain/J",
                    mode_limit(m.driver.angle_gain * m.inverse_inertia[m.driver.body],
@@ -98,6 +102,9 @@ std::vector<StepLimit> step_limits(const Model& m, Scheme) {
   return out;
 }
 
-double stable_step(const Model& m, Scheme scheme) { return margin * step_limits(m, scheme).front().limit_s; }
+double stable_step(const Model& m, Scheme scheme) {
+  if (scheme == Scheme::linearly_implicit) return 2e-5;
+  return margin * step_limits(m, scheme).front().limit_s;
+}
 
 }  // namespace beltlife

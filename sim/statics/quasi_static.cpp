@@ -65,8 +65,9 @@ class Balance {
   const Loop& loop() const { return loop_; }
   int driver() const { return driver_; }
   const std::vector<PassLayer>& layers() const { return layers_; }
-  double friction = 0;  // N m on the arm, counterclockwise
-  double load = 1;      // share of the torques and of the bending damping, for continuation
+  double friction = 0;         // N m on the arm, counterclockwise
+  std::optional<double> stop;  // rad, angle of the stop on which the arm rests; without, both are as if absent
+  double load = 1;             // share of the torques and of the bending damping, for continuation
 
   double arm_angle(const Eigen::VectorXd& x) const { return free_arm_ ? x[m_.pulleys] : m_.statics.balance.arm_angle; }
 
@@ -170,7 +171,7 @@ class Balance {
       if (loop_.pulley[k] == t.pulley) {
         const Vec2 h = hub(p, k);
         return (p.circles[k].x - t.pivot_x) * h.y - (p.circles[k].y - t.pivot_y) * h.x + t.spring_torque -
-               t.spring_rate * arm_angle(x) + friction;
+               t.spring_rate * arm_angle(x) + friction - (stop ? t.stops.stiffness * (arm_angle(x) - *stop) : 0);
       }
     return 0;
   }
@@ -260,6 +261,23 @@ bool solve_from_rest(Balance& balance, Eigen::VectorXd& x, const Eigen::VectorXd
   return false;
 }
 
+// With the arm free, or held by one of its stops: `attempt` solves for x with that, and the first answer stands in
+// which a stop pushes and no other is passed. The one on which the arm was last is tried first.
+template <class Attempt>
+bool solve_between_stops(Balance& balance, const ArmStops& stops, Eigen::VectorXd& x, Attempt attempt) {
+  std::vector<std::optional<double>> cases{balance.stop};
+  if (balance.stop) cases.push_back({});
+  for (double angle : {stops.low, stops.high})
+    if (std::isfinite(angle) && angle != balance.stop) cases.push_back(angle);
+  for (const auto& stop : cases) {
+    balance.stop = stop;
+    if (!attempt(x)) continue;
+    const double depth = balance.free_arm() ? stops.depth(balance.arm_angle(x)) : 0;
+    if (stop ? (*stop == stops.high ? depth > 0 : depth < 0) : depth == 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
@@ -279,7 +297,10 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
     rest[k] = std::max(m.statics.balance.tension, 10.0) +
               (balance.free_arm() ? m.scene.belt.mass_kg_per_m * speed * speed : 0);
   if (balance.free_arm()) rest[n] = m.statics.balance.arm_angle;
-  if (!solve_from_rest(balance, x, rest)) {
+  const ArmStops& stops = m.tensioner.stops;
+  if (balance.free_arm() && m.statics.balance.stop != ArmStop::none)
+    balance.stop = stops.depth(m.statics.balance.arm_angle) > 0 ? stops.high : stops.low;
+  if (!solve_between_stops(balance, stops, x, [&](auto& y) { return solve_from_rest(balance, y, rest); })) {
     out.error = "no balance of torques, belt length and tensioner was found";
     return out;
   }
@@ -298,6 +319,11 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
   out.belt_speed = p.rate;
   out.centrifugal = m.scene.belt.mass_kg_per_m * p.rate * p.rate;
   if (m.tensioner.pulley >= 0) out.arm_angle = out.arm_angle_low = out.arm_angle_high = balance.arm_angle(x);
+  if (balance.stop) {
+    out.arm_stop = stops.at(*out.arm_angle, m.tensioner.lengthening);
+    out.remarks.push_back(fmt::format("the arm rests on its {} stop",
+                                      out.arm_stop == ArmStop::lengthening ? "lengthening" : "shortening"));
+  }
   out.spans.resize(n);
   out.pulleys.resize(n);
   const double ea = m.belt.axial_stiffness, mass = m.scene.belt.mass_kg_per_m;
@@ -321,6 +347,18 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
     pulley.hub_load = pulley.hub_load_low = pulley.hub_load_high = std::hypot(hub.x, hub.y);
     const double ratio = std::abs(std::log(p.taut_out[k] * p.arm_out[k] / (p.taut_in[k] * p.arm_in[k])));
     if (ratio > 1e-6) pulley.slip_safety = m.pulley_friction[i] * p.wrap[k] / ratio;
+    pulley.slips = pulley.slip_safety && *pulley.slip_safety < 1 && p.speed[k] > 0;
+    if (pulley.slips)
+      out.remarks.push_back(fmt::format(
+          "the belt would slip on pulley {}: friction x wrap is {:.0f} % of what the torque takes; the tensions are "
+          "those of a belt that holds",
+          pulley.name, 100 * *pulley.slip_safety));
+    if (m.has_one_way())
+      for (int s : trains.released(m, i, p.speed[k])) {
+        out.released.push_back(m.scene.torsional_spring[s].name);
+        out.remarks.push_back(fmt::format("the one-way spring {} is released: {} runs ahead of {}", out.released.back(),
+                                          m.body_name[m.springs[s].to], m.body_name[m.springs[s].from]));
+      }
     const double lost = carried(x[k]) - carried(x[(k + n - 1) % n]) - p.torque[k] * p.speed[k];
     const double big = p.circles[k].radius, half = 0.5 * m.belt.bending_damping * p.rate * p.rate / (big * big);
     if (m.belt.bending_damping > 0) {
@@ -342,12 +380,27 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
   out.table_power -= own;
   out.driver_power += own;
 
-  if (balance.free_arm() && m.tensioner.friction_torque > 0)
+  // Friction turns the arm against the sense in which it would move.
+  const std::optional<double> resting_stop = balance.stop;
+  if (balance.free_arm() && std::max(m.tensioner.friction_against(-1), m.tensioner.friction_against(1)) > 0)
     for (double sign : {-1.0, 1.0}) {
-      balance.friction = sign * m.tensioner.friction_torque;
-      Eigen::VectorXd y = x;
-      if (!solve(balance, y)) continue;
-      const Point q = balance.at(y);
+      balance.friction = sign * m.tensioner.friction_against(-sign);
+      balance.stop = resting_stop;
+      Eigen::VectorXd y;
+      const auto from_middle = [&](auto& z) {
+        z = x;
+        return solve(balance, z);
+      };
+      const bool solved = solve_between_stops(balance, stops, y, from_middle);
+      const Point q = solved ? balance.at(y) : Point{};
+      if (!solved || *std::min_element(q.taut_out.begin(), q.taut_out.end()) <= 0) {
+        out.band_incomplete = true;
+        out.remarks.push_back(
+            fmt::format("at the friction limit where the arm's friction {} the belt path {}: the band leaves it out",
+                        sign * m.tensioner.lengthening > 0 ? "lengthens" : "shortens",
+                        solved ? "a span would be slack" : "no balance was found"));
+        continue;
+      }
       out.arm_angle_low = std::min(*out.arm_angle_low, y[n]);
       out.arm_angle_high = std::max(*out.arm_angle_high, y[n]);
       for (int k = 0; k < n; ++k) {

@@ -25,6 +25,7 @@ struct QuasiStaticPulley {
   double hub_load = 0;                         ///< N
   double hub_load_low = 0, hub_load_high = 0;  ///< N, between the arm's two friction limits
   std::optional<double> slip_safety;           ///< friction x wrap over what the torque takes; none without torque
+  bool slips = false;                          ///< turning, and slip_safety below 1: the belt could not hold this
   double bending_loss = 0;                     ///< W, with the contact that lets the belt sink
   double creep_loss = 0;                       ///< W, sliding where the tension changes
   double rigid_loss = 0;                       ///< W, closed form of a pulley that holds the belt rigidly
@@ -38,11 +39,15 @@ struct QuasiStaticRange {
   double centrifugal = 0;            ///< N, m' v^2: what the tensions hold of the belt's own mass
   std::optional<double> arm_angle;   ///< rad; none without tensioner
   std::optional<double> arm_angle_low, arm_angle_high;  ///< rad, between the friction limits
-  std::vector<QuasiStaticSpan> spans;                   ///< scene order, span i from pulley i to the next
-  std::vector<QuasiStaticPulley> pulleys;               ///< scene order
-  double driver_power = 0;                              ///< W into the drive
-  double table_power = 0;                               ///< W into the drive
-  double loss = 0;                                      ///< W, bending and creep of all pulleys
+  ArmStop arm_stop = ArmStop::none;                     ///< on which the arm rests, without friction
+  std::vector<std::string> released;                    ///< one-way springs that overrun
+  bool band_incomplete = false;        ///< one friction limit was not solved: the lows and highs lie too close together
+  std::vector<std::string> remarks;    ///< in words: slipping pulleys, the arm's stop, released springs, open bands
+  std::vector<QuasiStaticSpan> spans;  ///< scene order, span i from pulley i to the next
+  std::vector<QuasiStaticPulley> pulleys;  ///< scene order
+  double driver_power = 0;                 ///< W into the drive
+  double table_power = 0;                  ///< W into the drive
+  double loss = 0;                         ///< W, bending and creep of all pulleys
 };
 
 /// Solves one range: span tensions and arm angle from the torque tables at the speeds of creep, the belt's length and

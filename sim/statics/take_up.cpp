@@ -27,10 +27,12 @@ TakeUpRow row_at(const Model& m, double angle) {
   const Vec2 g = length_gradient(route, static_cast<std::size_t>(t.pulley));
   const Circle& c = route.circles[t.pulley];
   const double gradient = (c.x - t.pivot_x) * g.y - (c.y - t.pivot_y) * g.x;
-  const double torque = t.spring_torque - t.spring_rate * angle;
+  const double torque = t.spring_torque - t.spring_rate * angle + t.stops.elastic_torque(angle);
   row.tension = torque / gradient;
   row.unstretched_length = row.path_length / (1 + row.tension / m.belt.axial_stiffness);
-  if (gradient * m.statics.placed.length_per_arm_angle <= 0)
+  if (t.stops.at(angle, t.lengthening) != ArmStop::none)
+    row.reason = "the arm meets its stop";
+  else if (gradient * m.statics.placed.length_per_arm_angle <= 0)
     row.reason = "turning the arm further no longer changes the path in its sense";
   else if (row.tension < -1e-9)
     row.reason = "the spring has run out";
@@ -42,9 +44,11 @@ TakeUpRow row_at(const Model& m, double angle) {
 // The last angle from the balance in one sense that can be had.
 TakeUpRow end_of_reach(const Model& m, double sense) {
   constexpr int pieces = 720;
-  double good = m.statics.balance.arm_angle;
+  // An arm at rest on a stop has turned into it by what the stop gives way.
+  const double start = m.statics.balance.arm_angle - m.tensioner.stops.depth(m.statics.balance.arm_angle);
+  double good = start;
   for (int i = 1; i <= pieces; ++i) {
-    double bad = m.statics.balance.arm_angle + sense * std::numbers::pi * i / pieces;
+    double bad = start + sense * std::numbers::pi * i / pieces;
     TakeUpRow beyond = row_at(m, bad);
     if (beyond.reason.empty()) {
       good = bad;

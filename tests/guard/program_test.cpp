@@ -76,6 +76,27 @@ TEST(Program, LosesEachFeatureWithItsTable) {
   EXPECT_EQ(program_of(scene), without(names, "tensioner arm"));
 }
 
+TEST(Program, HasStopsSensesAndClutchesOnlyWhereTheSceneHasThem) {
+  const Names names = program_of(scene_of("accessory_drive.toml"));
+  EXPECT_EQ(names.back(), "tensioner arm");
+  Names wanted = names;
+  wanted.push_back("arm stops");
+  EXPECT_EQ(program_of(scene_of("accessory_drive.toml", {"tensioner.stop_shortening_deg=10"})), wanted);
+  wanted = names;
+  wanted.back() = "tensioner arm, directional";
+  EXPECT_EQ(program_of(scene_of("accessory_drive.toml", {"tensioner.damping_shortening_n_m_s_per_rad=0"})), wanted);
+  EXPECT_EQ(program_of(scene_of("accessory_drive.toml", {"tensioner.friction_torque_shortening_n_m=1"})), wanted);
+  EXPECT_EQ(program_of(scene_of("accessory_drive.toml",
+                                {"tensioner.stop_shortening_deg=10", "tensioner.damping_shortening_n_m_s_per_rad=0",
+                                 "tensioner.locked=true"})),
+            without(names, "tensioner arm"));
+  Names clutch = program_of(scene_of("overrunning_alternator.toml"));
+  EXPECT_EQ(std::count(clutch.begin(), clutch.end(), "torsional springs, one-way"), 1);
+  clutch = program_of(scene_of("overrunning_alternator.toml", {"torsional_spring.clutch.one_way=false"}));
+  EXPECT_EQ(std::count(clutch.begin(), clutch.end(), "torsional springs"), 1);
+  EXPECT_EQ(std::count(clutch.begin(), clutch.end(), "torsional springs, one-way"), 0);
+}
+
 TEST(Program, HasAControllerOnlyWhereTheDriverHasOne) {
   Names names = program_of(scene_of("baseline.toml"));
   names.push_back("pid driver");
@@ -89,6 +110,11 @@ TEST(Arrays, OfBendingAreNotAllocatedWithoutIt) {
   EXPECT_EQ(with.turn_rate.size(), 264);
   EXPECT_EQ(none.moment.size(), 0);
   EXPECT_EQ(none.turn_rate.size(), 0);
+}
+
+TEST(Arrays, OfClutchesAreNotAllocatedWithoutOne) {
+  EXPECT_EQ(compile(scene_of("overrunning_alternator.toml")).initial.free_wheel.size(), 1u);
+  EXPECT_TRUE(compile(scene_of("baseline.toml")).initial.free_wheel.empty());
 }
 
 TEST(Arrays, OfContactAreNotAllocatedForARing) {

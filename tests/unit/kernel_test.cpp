@@ -242,6 +242,43 @@ TEST(ContactLaw, GivesThePulleyTheOppositeOfTheBeltsForceAndMoment) {
   EXPECT_NEAR(t.work.torque[0], -moment, 1e-14 * t.work.normal[0]);  // products in another order
 }
 
+TEST(ArmStopsKernel, PushesBeyondItsAngleAndNeverPulls) {
+  Bench b("accessory_drive.toml", {"tensioner.stop_lengthening_deg=4", "tensioner.stop_stiffness_n_m_per_rad=1000",
+                                   "tensioner.stop_damping_n_m_s_per_rad=2"});
+  const double sense = b.model.tensioner.lengthening, stop = 4 * std::numbers::pi / 180;
+  const auto torque = [&](double beyond, double rate) {  // in the sense that lengthens the path
+    b.state.q.arm_angle = sense * (stop + beyond);
+    b.state.q.arm_rate = sense * rate;
+    b.work.arm_torque = 7;
+    b.apply(arm_stops);
+    EXPECT_EQ(b.work.arm_torque, 7 + b.work.arm_stop_torque);
+    return sense * b.work.arm_stop_torque;
+  };
+  EXPECT_EQ(torque(-1e-3, 5), 0);
+  EXPECT_NEAR(torque(0.01, 0), -10, 1e-12);  // rounding of the angle times the stiffness
+  EXPECT_NEAR(torque(0.01, 3), -16, 1e-12);
+  EXPECT_EQ(torque(0.01, -6), 0);  // spring and damper together would pull
+  EXPECT_EQ(torque(-1, 0), 0);     // no stop on the other side
+}
+
+TEST(OneWayKernel, RemembersWhereItEngagesOnlyInACommittingPass) {
+  Bench b("overrunning_alternator.toml");
+  const TorsionalSpring& s = b.model.springs[0];
+  const auto torque = [&](double twist, bool commit) {
+    b.state.q.angle[s.from] = s.sense * twist;
+    b.pass.commit = commit;
+    b.apply(torsional_springs_one_way);
+    return s.sense * b.work.spring_torque[0];
+  };
+  EXPECT_NEAR(torque(0.01, true), 15, 1e-12);
+  EXPECT_EQ(torque(-0.02, false), 0);
+  EXPECT_EQ(b.state.free_wheel[0], 0);
+  EXPECT_EQ(torque(-0.02, true), 0);
+  EXPECT_EQ(b.state.free_wheel[0], -0.02);
+  EXPECT_NEAR(torque(-0.01, true), 15, 1e-12);  // engaged again without going back
+  EXPECT_EQ(b.work.torque[s.from] + b.work.torque[s.to], 0);
+}
+
 TEST(VectorSum, EqualsALongDoubleSum) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(0, 1);

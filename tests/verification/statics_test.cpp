@@ -150,6 +150,89 @@ TEST(Statics, TakeUpIsThatOfTheRoute) {
   EXPECT_TRUE(take_up(compile(drives::shipped("two_pulley"))).empty());
 }
 
+// The belt slides over a pulley that cannot turn: T' ratio e^(mu wrap), and the driver's power goes into that.
+TEST(Statics, LockedPulleyHoldsTheBeltByItsFrictionAlone) {
+  SceneSpec scene = drives::two_pulleys(256, 500, 120, 120, 600);
+  scene.contact.stiffness_n_per_m3 = 1e14;
+  scene.pulley[1].locked = true;
+  const Model model = compile(scene);
+  const QuasiStaticRange q = solve_quasi_static(model, {"one", 2000, 1});
+  ASSERT_FALSE(q.error) << *q.error;
+  const QuasiStaticPulley& locked = q.pulleys[1];
+  const double tight = std::max(q.spans[0].tension, q.spans[1].tension) - q.centrifugal;
+  const double slack = std::min(q.spans[0].tension, q.spans[1].tension) - q.centrifugal;
+  drives::report("T' ratio on the locked pulley", tight / slack, std::exp(0.6 * locked.wrap));
+  // T' takes off m'v^2 (1 + T/EA): some thousandths of 63 N on a slack span of 140 N.
+  EXPECT_NEAR(tight / slack / std::exp(0.6 * locked.wrap), 1, 5e-3);
+  EXPECT_EQ(locked.speed, 0);
+  EXPECT_FALSE(locked.slips);  // it slides, as it must: not a belt that could not hold
+  EXPECT_NEAR(*locked.slip_safety, 1, 1e-6);
+  EXPECT_NEAR(locked.creep_loss / ((tight - slack) * q.belt_speed), 1, 0.01);  // the belt stretches on the way: T/EA
+  EXPECT_NEAR(q.driver_power, q.loss, 1e-9 * q.loss);
+}
+
+TEST(Statics, LockedArmMakesTheDriveOfAFixedPulley) {
+  SceneSpec locked = drives::shipped("accessory_drive");
+  locked.tensioner->locked = true;
+  locked.belt.balanced_as_placed.reset();
+  locked.belt.unstretched_length_mm = 1630;
+  const Model model = compile(locked);
+  SceneSpec fixed = locked;
+  const Circle at = circles_of(locked, model.statics.orientation, model.statics.balance.arm_angle)[1];
+  fixed.tensioner.reset();
+  fixed.pulley[1].x_mm = 1e3 * at.x;
+  fixed.pulley[1].y_mm = 1e3 * at.y;
+  const QuasiStaticRange q = solve_quasi_static(model, locked.range[1]);
+  const QuasiStaticRange reference = solve_quasi_static(compile(fixed), fixed.range[1]);
+  ASSERT_FALSE(q.error || reference.error);
+  EXPECT_EQ(*q.arm_angle, model.statics.balance.arm_angle);
+  EXPECT_EQ(*q.arm_angle_low, *q.arm_angle_high);  // friction does not move it
+  for (int i = 0; i < model.pulleys;
+       ++i)  // the centre's millimetres are rounded: 1e-13 m of a path of 64 N a millimetre
+    EXPECT_NEAR(q.spans[i].tension, reference.spans[i].tension, 1e-6) << q.spans[i].name;
+}
+
+TEST(Statics, PulleyThatWouldSlipIsFlaggedAndNamed) {
+  SceneSpec scene = drives::two_pulleys(256, 500, 120, 120, 600);
+  scene.torque.push_back({"load", "driven", {100, 10000}, {-60, -60}, {}});
+  const QuasiStaticRange q = solve_quasi_static(compile(scene), {"one", 500, 1});
+  ASSERT_FALSE(q.error) << *q.error;
+  EXPECT_LT(*q.pulleys[1].slip_safety, 1);
+  EXPECT_TRUE(q.pulleys[0].slips && q.pulleys[1].slips);
+  ASSERT_EQ(q.remarks.size(), 2u);
+  EXPECT_NE(q.remarks[1].find("slip on pulley driven"), std::string::npos) << q.remarks[1];
+  scene.torque[0].torques_n_m = {-20, -20};
+  const QuasiStaticRange held = solve_quasi_static(compile(scene), {"one", 500, 1});
+  EXPECT_TRUE(held.remarks.empty());
+  EXPECT_FALSE(held.pulleys[0].slips || held.pulleys[1].slips);
+}
+
+TEST(Statics, FrictionBandThatCannotBeSolvedSaysSo) {
+  SceneSpec scene = drives::shipped("accessory_drive");
+  EXPECT_FALSE(solve_quasi_static(compile(scene), scene.range[1]).band_incomplete);
+  scene.tensioner->friction_torque_n_m = 40;  // more than the spring's 24: it can hold the arm off the belt
+  const QuasiStaticRange q = solve_quasi_static(compile(scene), scene.range[1]);
+  ASSERT_FALSE(q.error) << *q.error;
+  EXPECT_TRUE(q.band_incomplete);
+  ASSERT_EQ(q.remarks.size(), 1u);
+  EXPECT_NE(q.remarks[0].find("shortens the belt path"), std::string::npos) << q.remarks[0];
+  for (const QuasiStaticSpan& s : q.spans) EXPECT_GT(s.tension_low, 0) << s.name;
+}
+
+TEST(Statics, FrictionBandOfALopsidedTensionerIsThatOfEachOfItsTorques) {
+  SceneSpec scene = drives::shipped("accessory_drive");
+  scene.tensioner->friction_torque_shortening_n_m = 5;
+  const QuasiStaticRange q = solve_quasi_static(compile(scene), scene.range[1]);
+  const auto with = [&](double torque, bool high) {
+    SceneSpec other = drives::shipped("accessory_drive");
+    other.tensioner->friction_torque_n_m = torque;
+    const auto& span = solve_quasi_static(compile(other), other.range[1]).spans[0];
+    return high ? span.tension_high : span.tension_low;
+  };
+  EXPECT_NEAR(q.spans[0].tension_low, with(3, false), 1e-3);  // what holds back a path that lengthens slackens the belt
+  EXPECT_NEAR(q.spans[0].tension_high, with(5, true), 1e-3);
+}
+
 TEST(Statics, WhatHasNoSolutionSaysSoInWords) {
   SceneSpec scene = drives::two_pulleys(256, 500, 120, 80, 300);
   const RangeSpec range{"one", 2000, 1};
@@ -159,6 +242,9 @@ TEST(Statics, WhatHasNoSolutionSaysSoInWords) {
   scene.driver.reset();
   EXPECT_NE(solve_quasi_static(compile(scene), range).error.value_or("").find("no driver"), std::string::npos);
   EXPECT_TRUE(solve_quasi_static(compile(drives::shipped("spinning_ring")), range).error);
+  scene = drives::two_pulleys(256, 500, 120, 120, 300);
+  scene.torsional_spring.push_back({"shaft", "driver", "driven", 100, 0});
+  EXPECT_NE(solve_quasi_static(compile(scene), range).error.value_or("").find("joined by shafts"), std::string::npos);
 }
 
 }  // namespace
