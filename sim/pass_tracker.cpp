@@ -57,12 +57,13 @@ void PassTracker::searched(const State& state) {
 
 double PassTracker::observe(const State& state, const Work& work, bool sample) {
   double largest = 0;
+  const bool peaks = work.normal_peak.size() > 0;
   for (const ContactSegment& s : state.segments)
     for (int i = s.begin; i < s.end; ++i) {
       const double normal = work.normal[i], tangential = std::abs(work.tangential[i]);
       largest = std::max(largest, normal);
-      normal_[i] = std::max(normal_[i], normal);
-      tangential_[i] = std::max(tangential_[i], tangential);
+      normal_[i] = std::max(normal_[i], peaks ? work.normal_peak[i] : normal);
+      tangential_[i] = std::max(tangential_[i], peaks ? work.tangential_peak[i] : tangential);
       if (sample && normal > 0) {
         sampled_[i] = 1;
         sampled_normal_[i] = std::max(sampled_normal_[i], normal);

@@ -86,6 +86,20 @@ RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured) {
   return plan;
 }
 
+RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured) {
+  RunPlan plan = plan_range(scene, range, measured);
+  const Window last = plan.windows.front();
+  const double start = scene.profile.settle_s + scene.profile.ramp_s, length = last.end_s - last.begin_s;
+  const int blocks = static_cast<int>((last.end_s - start) / length + 1e-9);
+  for (int k = 1; k < blocks; ++k) {
+    Window block = last;
+    block.begin_s = last.begin_s - k * length;
+    block.end_s = block.begin_s + length;
+    plan.windows.insert(plan.windows.begin(), block);
+  }
+  return plan;
+}
+
 RunPlan plan_rest(const SceneSpec& scene) {
   const ProfileSpec& p = scene.profile;
   RunPlan plan{"rest", {}, {}, p.settle_s + p.hold_s};

@@ -36,6 +36,9 @@ RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const Measure
 /// All ranges one after the other: settle, ramp, then holds with transitions between; one window a range.
 RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured = nullptr);
 
+/// As plan_range, with every stretch of evaluate_s of the hold as a window, one behind the other.
+RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured = nullptr);
+
 /// A scene without ranges: settle and hold, with one window named "rest".
 RunPlan plan_rest(const SceneSpec& scene);
 

@@ -11,6 +11,10 @@
 namespace beltlife {
 
 struct RunOptions {
+  /// Sample channels from the first evaluated window on only; false: from rest.
+  bool windows_only = false;
+  /// Called as an evaluated window ends with what was recorded so far; true ends the run there. May be empty.
+  std::function<bool(const RunRecord&)> enough;
   /// Called with simulated seconds done, now and then; may be empty.
   std::function<void(double)> progress;
   /// Fill kernel_times.

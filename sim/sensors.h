@@ -20,10 +20,10 @@ std::vector<Channel> channels_of(const Model& model);
 class Sensors {
  public:
   explicit Sensors(const Model& model);
-  void sample(const Simulator& s, std::vector<Channel>& channels);
+  void sample(const DriveView& s, std::vector<Channel>& channels);
 
  private:
-  void spans(const Simulator& s, std::vector<Channel>& channels, std::size_t& at);
+  void spans(const DriveView& s, std::vector<Channel>& channels, std::size_t& at);
   std::vector<Circle> circles_;
   Route route_;
 };

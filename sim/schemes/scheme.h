@@ -16,6 +16,27 @@ struct KernelTime {
   std::int64_t calls = 0;
 };
 
+/// A drive at an instant, as sensors, trackers and the energy account read it.
+class DriveView {
+ public:
+  DriveView(const Model& model, const SpeedProfile& profile, const State& state, const Work& work, double time,
+            double step)
+      : model_(model), profile_(profile), state_(state), work_(work), time_(time), step_(step) {}
+  const Model& model() const { return model_; }
+  const SpeedProfile& profile() const { return profile_; }
+  const State& state() const { return state_; }
+  const Work& work() const { return work_; }
+  double time() const { return time_; }
+  double step() const { return step_; }
+
+ private:
+  const Model& model_;
+  const SpeedProfile& profile_;
+  const State& state_;
+  const Work& work_;
+  double time_, step_;
+};
+
 /// Advances one drive in time. The model and the profile must outlive it.
 class Simulator {
  public:
@@ -30,6 +51,7 @@ class Simulator {
   const State& state() const { return state_; }
   /// Forces of the last evaluation; with the thesis scheme that at the predicted state.
   const Work& work() const { return work_; }
+  DriveView view() const { return {model_, profile_, state_, work_, time(), step_}; }
   /// Replaces the state, e.g. by one saved before; goes on bit for bit as the saved one would have.
   void restore(const State& state);
   const std::vector<Kernel>& program() const { return program_; }

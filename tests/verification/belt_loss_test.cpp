@@ -32,7 +32,7 @@ Loss bending_loss(int elements, double contact_stiffness) {
   d.run_to(0.18);
   Mean power, tension, pace;
   d.run_to(0.25, 16, [&] {
-    power.add(powers(d.simulator)[Energy::lost_belt_bending]);
+    power.add(powers(d.simulator.view())[Energy::lost_belt_bending]);
     tension.add(d.work().tension[0]);
     pace.add(std::hypot(d.q().vx[0], d.q().vy[0]));
   });

@@ -1,0 +1,207 @@
+// Batches of points in packs: see evaluator.h.
+#include "sim/eval/evaluator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "sim/eval/parallel_for.h"
+#include "sim/eval/run_ranges.h"
+#include "sim/eval/settling.h"
+#include "sim/lanes/run_pack.h"
+#include "sim/life/loads.h"
+
+namespace beltlife {
+namespace {
+
+/// One range of one drive that is not in the memo.
+struct Task {
+  std::string key;
+  std::shared_ptr<const Model> model;
+  RunPlan plan;
+  std::shared_ptr<RangeResult> result;
+  std::vector<std::size_t> points;  ///< that wait for it
+};
+
+/// What lanes have in common: whoever differs here cannot run in lockstep.
+std::string pack_key(const Task& t) {
+  const Model& m = *t.model;
+  std::string key = fmt::format("{} {} {:a} {:a} {:a} {} {} {} {} {}", enum_name(m.scene.solver.scheme), m.belt.nodes,
+                                run_step(m), m.scene.solver.sample_rate_hz, t.plan.end_s, m.pulleys, m.bodies,
+                                m.tensioner.pulley, m.driver.body, t.plan.name);
+  for (const Kernel& k : force_program(m)) key += fmt::format(" {}", k.name);
+  return key;
+}
+
+RangeResult result_of(const Model& model, RunRecord&& record, const EvaluatorOptions& o) {
+  RangeResult r;
+  r.status = record.status;
+  r.step_s = record.step_s;
+  r.simulated_s = record.simulated_s;
+  if (o.settled_within > 0) r.settling_change = keep_last_window(model, record);
+  const WindowRecord& window = record.windows.back();
+  if (window.last_sample <= window.first_sample) return r;
+  r.summary = summarise(model, record, window);
+  r.load = range_load(model.scene, model.statics.unstretched_length, record, window);
+  return r;
+}
+
+std::vector<RunOutcome> run_tasks(const std::vector<Task*>& tasks, const EvaluatorOptions& o) {
+  RunOptions options;
+  options.windows_only = true;
+  const Model& first = *tasks.front()->model;
+  if (o.settled_within > 0)
+    options.enough = [&](const RunRecord& record) { return settled(first, record, o.settled_within); };
+  if (first.scene.solver.scheme != Scheme::linearly_implicit) {
+    std::vector<RunOutcome> out;
+    for (const Task* t : tasks) out.push_back(run(*t->model, t->plan, options));
+    return out;
+  }
+  std::vector<PackMember> members;
+  for (const Task* t : tasks) members.push_back({t->model.get(), &t->plan});
+  return run_pack(members, o.use, options);
+}
+
+// Once more at half the step, which a failure of the step itself survives.
+RangeResult retry(const Task& t, const EvaluatorOptions& o) {
+  SceneSpec scene = t.model->scene;
+  scene.solver.step_s = 0.5 * run_step(*t.model);
+  Task again{t.key, std::make_shared<const Model>(compile(scene)), t.plan, nullptr, {}};
+  auto outcomes = run_tasks({&again}, o);
+  RangeResult r = result_of(*again.model, std::move(outcomes.front().record), o);
+  r.retried = true;
+  return r;
+}
+
+std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const EvaluatorOptions& o) {
+  std::map<std::string, std::vector<Task*>> alike;
+  for (Task& t : tasks) alike[pack_key(t)].push_back(&t);
+  const bool shared = o.use == LaneUse::drives;
+  std::vector<std::vector<Task*>> packs;
+  for (auto& [key, group] : alike) {
+    const bool lanes_at_work = shared && group.front()->model->scene.solver.scheme == Scheme::linearly_implicit;
+    const std::size_t size = lanes_at_work ? lanes : 1;
+    for (std::size_t i = 0; i < group.size(); i += size)
+      packs.emplace_back(group.begin() + static_cast<std::ptrdiff_t>(i),
+                         group.begin() + static_cast<std::ptrdiff_t>(std::min(i + size, group.size())));
+  }
+  std::stable_sort(packs.begin(), packs.end(), [](const auto& a, const auto& b) {
+    return a.front()->plan.end_s * static_cast<double>(a.front()->model->belt.nodes) >
+           b.front()->plan.end_s * static_cast<double>(b.front()->model->belt.nodes);
+  });
+  return packs;
+}
+
+void finish(const SceneSpec& scene, const std::vector<std::string>& names, PointResult& point) {
+  std::vector<RangeLoad> loads;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const RangeResult& r = *point.ranges[i];
+    for (Quantity& q : quantities_of(r.summary)) point.quantities.push_back(std::move(q));
+    RangeLoad load = r.load;
+    load.name = names[i];
+    for (const RangeSpec& range : scene.range)
+      if (range.name == names[i]) load.duty_share = range.duty_share;
+    const RangeLife life = range_life(load, scene.fatigue);
+    if (r.ok()) point.quantities.push_back({names[i] + ".life_h", life.life_h});
+    loads.push_back(std::move(load));
+  }
+  if (!point.ok()) {
+    point.life.error = "no life: not every range ran to its end";
+    point.life.life_h = point.life.log10_life_h = std::nan("");
+    return;
+  }
+  point.life = duty_cycle_life(loads, scene.fatigue);
+  point.quantities.push_back({"life_h", point.life.life_h});
+  point.quantities.push_back({"log10_life_h", point.life.log10_life_h});
+}
+
+}  // namespace
+
+bool PointResult::ok() const {
+  return problems.empty() && !ranges.empty() &&
+         std::all_of(ranges.begin(), ranges.end(), [](const auto& r) { return r && r->ok(); });
+}
+
+std::string simulation_key(const SceneSpec& scene, const std::string& range) {
+  SceneSpec seen = scene;
+  seen.title.clear();
+  seen.fatigue = {};
+  std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
+  for (RangeSpec& r : seen.range) r.duty_share = 0;
+  return write_scene(seen);
+}
+
+std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
+                                             const std::function<void(std::size_t, const PointResult&)>& on_finished) {
+  std::vector<PointResult> results(points.size());
+  std::vector<std::vector<std::string>> names(points.size()), keys(points.size());
+  std::vector<std::size_t> missing(points.size(), 0);
+  std::vector<Task> tasks;
+  std::unordered_map<std::string, std::size_t> pending;  // key -> task
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::shared_ptr<const Model> model;
+    try {
+      model = std::make_shared<const Model>(compile(points[i]));
+    } catch (const BadInput& bad) {
+      results[i].problems = bad.problems();
+      continue;
+    }
+    for (const RunPlan& plan : plans_of(points[i], options_.ranges, options_.measured)) {
+      names[i].push_back(plan.name);
+      keys[i].push_back(simulation_key(points[i], plan.name));
+      const std::string& key = keys[i].back();
+      if (memo_.contains(key)) {
+        ++reused_;
+        continue;
+      }
+      const auto [at, fresh] = pending.emplace(key, tasks.size());
+      if (fresh) {
+        ++simulations_;
+        tasks.push_back({key, model, plan, nullptr, {}});
+        if (options_.settled_within > 0)
+          for (const RangeSpec& range : points[i].range)
+            if (range.name == plan.name) tasks.back().plan = plan_blocks(points[i], range, options_.measured);
+      } else {
+        ++reused_;
+      }
+      tasks[at->second].points.push_back(i);
+      ++missing[i];
+    }
+  }
+
+  std::mutex mutex;
+  const auto complete = [&](std::size_t i) {
+    for (const std::string& key : keys[i]) results[i].ranges.push_back(memo_.at(key));
+    finish(points[i], names[i], results[i]);
+    if (on_finished) on_finished(i, results[i]);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!results[i].problems.empty()) {
+      if (on_finished) on_finished(i, results[i]);
+    } else if (missing[i] == 0) {
+      complete(i);
+    }
+  }
+  auto packs = packs_of(tasks, options_);
+  parallel_for(static_cast<int>(packs.size()), options_.threads, [&](int p) {
+    const auto& pack = packs[static_cast<std::size_t>(p)];
+    auto outcomes = run_tasks(pack, options_);
+    for (std::size_t k = 0; k < pack.size(); ++k) {
+      Task& t = *pack[k];
+      auto result = std::make_shared<RangeResult>(result_of(*t.model, std::move(outcomes[k].record), options_));
+      if (!result->ok() && options_.retry) *result = retry(t, options_);
+      t.result = std::move(result);
+    }
+    const std::lock_guard lock(mutex);
+    for (Task* t : pack) {
+      memo_[t->key] = t->result;
+      for (std::size_t i : t->points)
+        if (--missing[i] == 0) complete(i);
+    }
+  });
+  return results;
+}
+
+}  // namespace beltlife

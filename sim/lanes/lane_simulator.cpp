@@ -1,0 +1,261 @@
+// The linearly implicit scheme: see lane_simulator.h.
+#include "sim/lanes/lane_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beltlife {
+namespace {
+
+constexpr double margin = 5e-3;           // m above a pulley's surface within which a node is looked at
+constexpr double search_interval = 1e-4;  // s
+
+// Squares of the largest nodal velocity in each lane.
+BELTLIFE_VECTOR void fastest(int rows, const double* vx, const double* vy, LaneNumber& most) {
+  for (int j = 0; j < rows; ++j) {
+    const double *u = vx + j * lanes, *v = vy + j * lanes;
+    BELTLIFE_EACH_LANE(k) {
+      const double v2 = u[k] * u[k] + v[k] * v[k];
+      most[k] = v2 > most[k] ? v2 : most[k];
+    }
+  }
+}
+
+// The nearest pulley of every node within `reach` of its surface; -1 where there is none. Nearness is the power
+// (d^2 - r^2)/2r, the gap to first order, which needs no root.
+BELTLIFE_VECTOR void nearest_pulleys(int rows, int pulleys, const LaneNumber& reach, const LaneNumber* cx,
+                                     const LaneNumber* cy, const LaneNumber* radius, const double* x, const double* y,
+                                     LaneNumber* work, double* found) {
+  for (int p = 0; p < pulleys; ++p)
+    for (int k = 0; k < lanes; ++k) {
+      const double r = radius[p][k], far = r + reach[k];
+      work[3 * p][k] = far * far;
+      work[3 * p + 1][k] = r * r;
+      work[3 * p + 2][k] = 0.5 / r;
+    }
+  for (int j = 0; j < rows; ++j) {
+    const double *xj = x + j * lanes, *yj = y + j * lanes;
+    double* out = found + j * lanes;
+    LaneNumber least;
+    for (int k = 0; k < lanes; ++k) {
+      least[k] = 1e300;
+      out[k] = -1;
+    }
+    for (int p = 0; p < pulleys; ++p) {
+      const LaneNumber &px = cx[p], &py = cy[p], &far2 = work[3 * p], &r2 = work[3 * p + 1], &scale = work[3 * p + 2];
+      BELTLIFE_EACH_LANE(k) {
+        const double dx = xj[k] - px[k], dy = yj[k] - py[k];
+        const double d2 = dx * dx + dy * dy, gap = (d2 - r2[k]) * scale[k];
+        const bool nearer = (d2 < far2[k]) & (gap < least[k]);
+        least[k] = nearer ? gap : least[k];
+        out[k] = nearer ? static_cast<double>(p) : out[k];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+LaneSimulator::LaneSimulator(const std::vector<LaneDrive>& drives, LaneUse use, double step)
+    : step_(step), search_steps_(std::max<std::int64_t>(1, static_cast<std::int64_t>(search_interval / step + 1e-9))) {
+  std::vector<const Model*> models;
+  for (const LaneDrive& d : drives) models.push_back(d.model);
+  belt_ = make_lane_belt(models, use, step);
+  for (const LaneDrive& d : drives) {
+    const Model& m = *d.model;
+    drives_.push_back(std::make_unique<Drive>(Drive{
+        d.model, d.profile, m.initial, m.initial, make_work(m), ImplicitTrain(m, *d.profile, step), force_program(m),
+        std::vector<double>(m.pulleys), std::vector<double>(m.pulleys), std::vector<double>(m.pulleys)}));
+    drives_.back()->work.normal_peak = drives_.back()->work.tangential_peak = NodeArray(m.belt.nodes);
+  }
+  const int nodes = models.front()->belt.nodes;
+  for (int k = 0; k < lanes; ++k) {
+    const State& s = drives_[k < this->drives() ? k : 0]->state;
+    for (int j = 0; j < belt_.rows; ++j) {
+      const int i = use == LaneUse::arcs ? k * belt_.rows + j : j;
+      if (i >= nodes) continue;
+      belt_.x.row(j)[k] = s.q.x[i];
+      belt_.y.row(j)[k] = s.q.y[i];
+      belt_.vx.row(j)[k] = s.q.vx[i];
+      belt_.vy.row(j)[k] = s.q.vy[i];
+    }
+  }
+  near_.assign(static_cast<std::size_t>(belt_.rows) * lanes, -1);
+  const int pulleys = models.front()->pulleys;
+  for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_, &radii_}) v->resize(pulleys);
+  search_work_.resize(3 * pulleys);
+  found_.resize(near_.size());
+  loads_.resize(pulleys);
+}
+
+void LaneSimulator::search() {
+  const int pulleys = drives_.front()->model->pulleys, rows = belt_.rows;
+  LaneNumber reach;
+  fastest(rows, belt_.vx.data(), belt_.vy.data(), reach);
+  if (belt_.use == LaneUse::arcs) {
+    const double most = *std::max_element(reach.of, reach.of + lanes);
+    for (int k = 0; k < lanes; ++k) reach[k] = most;
+  }
+  for (int k = 0; k < lanes; ++k) reach[k] = std::max(margin, 1.5 * std::sqrt(reach[k]) * search_interval);
+  for (int k = 0; k < lanes; ++k)
+    for (int p = 0; p < pulleys; ++p) radii_[p][k] = drive_of(k).model->pulley_radius[p];
+  nearest_pulleys(rows, pulleys, reach, centre_x_.data(), centre_y_.data(), radii_.data(), belt_.x.data(),
+                  belt_.y.data(), search_work_.data(), found_.data());
+  for (std::size_t at = 0; at < near_.size(); ++at) {
+    const int nearest = static_cast<int>(found_[at]);
+    if (near_[at] == nearest) continue;
+    near_[at] = nearest;
+    for (LaneArray* a : {&belt_.anchor, &belt_.normal, &belt_.tangential, &belt_.normal_tangent,
+                         &belt_.tangential_tangent, &belt_.normal_x, &belt_.normal_y, &belt_.normal_last,
+                         &belt_.normal_before, &belt_.lag, &belt_.tangential_now, &belt_.creep})
+      a->data()[at] = 0;
+  }
+  belt_.blocks.clear();
+  for (int j = 0; j < rows; ++j) {
+    const int* row = near_.data() + static_cast<std::size_t>(j) * lanes;
+    if (std::all_of(row, row + lanes, [](int p) { return p < 0; })) continue;
+    if (!belt_.blocks.empty() && belt_.blocks.back().end == j &&
+        std::equal(row, row + lanes, belt_.blocks.back().pulley)) {
+      belt_.blocks.back().end = j + 1;
+      continue;
+    }
+    ContactBlock b{j, j + 1, {}};
+    std::copy(row, row + lanes, b.pulley);
+    belt_.blocks.push_back(b);
+  }
+}
+
+void LaneSimulator::gather(const ContactBlock& block, LanePulleys& out) const {
+  for (int k = 0; k < lanes; ++k) {
+    const int p = block.pulley[k];
+    const Drive& d = drive_of(k);
+    const int at = std::max(p, 0);
+    out.x[k] = centre_x_[at][k];
+    out.y[k] = centre_y_[at][k];
+    out.vx[k] = centre_vx_[at][k];
+    out.vy[k] = centre_vy_[at][k];
+    out.radius[k] = p >= 0 ? d.model->pulley_radius[p] : -1.0;
+    out.speed[k] = p >= 0 ? d.state.q.speed[p] : 0.0;
+    out.speed_change[k] = p >= 0 ? d.train.speed_change()[p] : 0.0;
+    out.friction[k] = p >= 0 ? d.model->pulley_friction[p] : 0.0;
+  }
+}
+
+// Only the pulley on the arm moves; the others are placed once.
+void LaneSimulator::place_pulleys() {
+  const int pulleys = drives_.front()->model->pulleys, on_arm = drives_.front()->model->tensioner.pulley;
+  for (int p = placed_ ? std::max(on_arm, 0) : 0; p < pulleys; ++p) {
+    if (placed_ && p != on_arm) break;
+    for (int k = 0; k < lanes; ++k) {
+      if (k > 0 && (belt_.use == LaneUse::arcs || k >= drives())) {
+        for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_}) (*v)[p][k] = (*v)[p][0];
+        continue;
+      }
+      const Centre c = pulley_centre(*drive_of(k).model, drive_of(k).state.q, p);
+      centre_x_[p][k] = c.x;
+      centre_y_[p][k] = c.y;
+      centre_vx_[p][k] = c.vx;
+      centre_vy_[p][k] = c.vy;
+    }
+  }
+  placed_ = true;
+}
+
+void LaneSimulator::advance() {
+  const double now = time();
+  const int pulleys = drives_.front()->model->pulleys;
+  for (auto& d : drives_) d->train.expect(d->state, now);
+  place_pulleys();
+  if (pulleys > 0 && step_count_ >= next_search_) {
+    search();
+    next_search_ = step_count_ + search_steps_;
+  }
+  fill_lane_ghosts(belt_);
+  lane_elements(belt_);
+  LanePulleys pulley;
+  for (const ContactBlock& b : belt_.blocks) {
+    gather(b, pulley);
+    lane_contact(belt_, b.begin, b.end, pulley);
+  }
+  lane_solve(belt_);
+  for (LaneLoads& l : loads_) l = {};
+  for (const ContactBlock& b : belt_.blocks) {
+    LaneLoads loads;
+    for (int k = 0; k < lanes; ++k)
+      if (const int p = b.pulley[k]; p >= 0) {
+        loads.x[k] = loads_[p].x[k];
+        loads.y[k] = loads_[p].y[k];
+        loads.moment[k] = loads_[p].moment[k];
+      }
+    lane_reactions(belt_, b.begin, b.end, loads);
+    for (int k = 0; k < lanes; ++k)
+      if (const int p = b.pulley[k]; p >= 0) {
+        loads_[p].x[k] = loads.x[k];
+        loads_[p].y[k] = loads.y[k];
+        loads_[p].moment[k] = loads.moment[k];
+      }
+  }
+  lane_advance(belt_);
+  for (int i = 0; i < drives(); ++i) {
+    Drive& d = *drives_[i];
+    for (int p = 0; p < pulleys; ++p) {
+      const LaneLoads& l = loads_[p];
+      double x = l.x[i], y = l.y[i], moment = l.moment[i];
+      if (belt_.use == LaneUse::arcs)
+        for (int k = 1; k < lanes; ++k) {
+          x += l.x[k];
+          y += l.y[k];
+          moment += l.moment[k];
+        }
+      d.hub_x[p] = x;
+      d.hub_y[p] = y;
+      d.belt_torque[p] = moment;
+    }
+    d.train.advance(d.state, now, d.belt_torque.data(), d.hub_x.data(), d.hub_y.data());
+  }
+  ++step_count_;
+}
+
+DriveView LaneSimulator::observe(int drive) {
+  Drive& d = *drives_[drive];
+  State& s = d.observed;
+  s.q.angle = d.state.q.angle;
+  s.q.speed = d.state.q.speed;
+  s.q.arm_rate = d.state.q.arm_rate;
+  s.q.arm_angle = d.state.q.arm_angle - 0.5 * step_ * s.q.arm_rate;
+  s.q.reference_angle = d.state.q.reference_angle;
+  s.arm_anchor = d.state.arm_anchor;
+  s.free_wheel = d.state.free_wheel;
+  const int nodes = d.model->belt.nodes;
+  const double back = 0.5 * step_;
+  s.step = step_count_;
+  s.segments.clear();
+  for (int i = 0; i < nodes; ++i) {
+    const int lane = belt_.use == LaneUse::arcs ? i / belt_.rows : drive;
+    const int row = belt_.use == LaneUse::arcs ? i % belt_.rows : i;
+    const std::size_t at = static_cast<std::size_t>(row) * lanes + lane;
+    s.q.vx[i] = belt_.vx.data()[at];
+    s.q.vy[i] = belt_.vy.data()[at];
+    s.q.x[i] = belt_.x.data()[at] - back * (s.q.vx[i] + 0.25 * belt_.dvx.data()[at]);
+    s.q.y[i] = belt_.y.data()[at] - back * (s.q.vy[i] + 0.25 * belt_.dvy.data()[at]);
+    s.anchor[i] = belt_.anchor.data()[at];
+    d.work.normal_peak[i] = belt_.normal_peak.data()[at];
+    d.work.tangential_peak[i] = belt_.tangential_peak.data()[at];
+    belt_.normal_peak.data()[at] = belt_.tangential_peak.data()[at] = 0;
+    const int near = near_[at];
+    if (near != s.near[i]) {
+      d.work.normal[i] = d.work.tangential[i] = d.work.slip[i] = 0;
+      s.near[i] = near;
+    }
+    if (near < 0) continue;
+    if (!s.segments.empty() && s.segments.back().end == i && s.segments.back().pulley == near)
+      s.segments.back().end = i + 1;
+    else
+      s.segments.push_back({near, i, i + 1});
+  }
+  Evaluation e{*d.model, *d.profile, s.q, s, d.work, {time() - back, 0, back, false}};
+  for (const Kernel& k : d.program) k.apply(e);
+  return {*d.model, *d.profile, s, d.work, time(), step_};
+}
+
+}  // namespace beltlife

@@ -1,0 +1,46 @@
+// Owns what is recorded of a running drive: samples of all channels, and of evaluated windows passes, energy, history.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/energy.h"
+#include "sim/pass_tracker.h"
+#include "sim/plan.h"
+#include "sim/record.h"
+#include "sim/sensors.h"
+
+namespace beltlife {
+
+/// Buffers are reserved up front; recording allocates nothing.
+class Recorder {
+ public:
+  /// Model, plan and record must outlive it.
+  Recorder(const Model& model, const RunPlan& plan, RunRecord& record);
+
+  /// Whether an evaluated window is open.
+  bool open() const { return open_; }
+  /// One sample of every channel.
+  void sample(const DriveView& s);
+  /// Closes and opens windows whose edges have come; true if one was closed.
+  bool turn(const DriveView& s);
+  /// Ends the open window, if any, whole or broken off.
+  void close(const DriveView& s, bool complete);
+  /// After a contact search.
+  void searched(const DriveView& s);
+  /// Energy, passes and the travelling element, in an open window; `sample`: a sample is taken at this instant too.
+  void observe(const DriveView& s, bool sample);
+
+ private:
+  const Model& model_;
+  const RunPlan& plan_;
+  RunRecord& record_;
+  Sensors sensors_;
+  std::vector<std::unique_ptr<PassTracker>> trackers_;
+  std::size_t next_ = 0;  // window that is open or comes next
+  bool open_ = false;
+  StoredEnergy begin_;
+  double last_observed_ = 0, last_history_ = 0;
+};
+
+}  // namespace beltlife
