@@ -10,7 +10,7 @@
 #include "sim/node_array.h"
 
 // NOLINTNEXTLINE(bugprone-macro-parentheses): the argument is declared
-#define BELTLIFE_EACH_LANE(k) _Pragma("GCC ivdep") for (int k = 0; k < ::beltlife::lanes; ++k)
+#define BELTLIFE_EACH_LANE(k) _Pragma("GCC ivdep") _Pragma("GCC unroll 1") for (int k = 0; k < ::beltlife::lanes; ++k)
 
 namespace beltlife {
 

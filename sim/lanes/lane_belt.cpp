@@ -43,7 +43,11 @@ LaneBelt make_lane_belt(const std::vector<const Model*>& drives, LaneUse use, do
     b.axial_damping[k] = m.belt.axial_damping / l0;
     b.bend_stiffness[k] = m.belt.bending_stiffness / l0;
     b.bend_damping[k] = m.belt.bending_damping / l0;
-    b.axial_tangent[k] = 0.25 * step * step * b.axial_stiffness[k] + 0.5 * step * b.axial_damping[k];
+    // The axial damper is faster than the step on short waves and weak on long ones: weighted as in lane_contact.cpp,
+    // short waves die out instead of alternating.
+    const double z = 4 * step * b.axial_damping[k] / m.belt.node_mass, weight = 0.5 + 0.5 * z / (z + 6.0);
+    b.axial_tangent[k] = 0.25 * step * step * b.axial_stiffness[k] + weight * step * b.axial_damping[k];
+    b.turning_tension[k] = 0.25 * step * step * b.axial_stiffness[k] + (weight - 0.5) * step * b.axial_damping[k];
     b.bend_tangent[k] = 0.25 * step * step * b.bend_stiffness[k] + 0.5 * step * b.bend_damping[k];
     b.contact_stiffness[k] = m.contact.stiffness;
     b.contact_damping[k] = m.contact.damping;

@@ -41,8 +41,9 @@ struct LaneBelt {
   LaneNumber bend_stiffness, bend_damping;                                ///< EI/l0, CI/l0
   LaneNumber contact_stiffness, contact_damping, separation_damping;
   LaneNumber friction_stiffness, inverse_friction_stiffness, friction_speed, anchor_share;
-  LaneNumber axial_tangent;  ///< h^2/4 EA/l0 + h/2 CA/l0, kg
-  LaneNumber bend_tangent;   ///< h^2/4 EI/l0 + h/2 CI/l0, kg m^2
+  LaneNumber axial_tangent;    ///< h^2/4 EA/l0 + theta h CA/l0, kg
+  LaneNumber turning_tension;  ///< h^2/4 EA/l0 + (theta - 1/2) h CA/l0, kg: times l w^2, see lane_elements.cpp
+  LaneNumber bend_tangent;     ///< h^2/4 EI/l0 + h/2 CI/l0, kg m^2
 
   LaneArray x, y, vx, vy;  ///< nodes: m, m/s
   LaneArray dvx, dvy;      ///< change of velocity in the last step, m/s

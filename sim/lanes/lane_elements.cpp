@@ -14,9 +14,9 @@ namespace {
 // Elements -2 .. rows: direction, angular velocity and tension.
 template <bool Turning>
 [[gnu::always_inline]] inline void directions(int rows, double h, const LaneNumber& length, const LaneNumber& stiffness,
-                                              const LaneNumber& damping, const double* x, const double* y,
-                                              const double* vx, const double* vy, double* ux, double* uy,
-                                              double* inverse_length, double* turn_rate, double* tension,
+                                              const LaneNumber& damping, const LaneNumber& turning, const double* x,
+                                              const double* y, const double* vx, const double* vy, double* ux,
+                                              double* uy, double* inverse_length, double* turn_rate, double* tension,
                                               double* geometric) {
   const double quarter = 0.25 * h * h;
   for (int e = -2; e <= rows; ++e) {
@@ -35,26 +35,26 @@ template <bool Turning>
       ouy[k] = cy;
       oil[k] = inverse;
       if (Turning) ot[k] = w;
-      of[k] = f + quarter * stiffness[k] * l * w * w;
+      of[k] = f + turning[k] * l * w * w;
       og[k] = quarter * (f > 0 ? f : 0.0) * inverse;
     }
   }
 }
 
 BELTLIFE_VECTOR void directions_plain(int rows, double h, const LaneNumber& length, const LaneNumber& stiffness,
-                                      const LaneNumber& damping, const double* x, const double* y, const double* vx,
-                                      const double* vy, double* ux, double* uy, double* inverse_length,
-                                      double* turn_rate, double* tension, double* geometric) {
-  directions<false>(rows, h, length, stiffness, damping, x, y, vx, vy, ux, uy, inverse_length, turn_rate, tension,
-                    geometric);
+                                      const LaneNumber& damping, const LaneNumber& turning, const double* x,
+                                      const double* y, const double* vx, const double* vy, double* ux, double* uy,
+                                      double* inverse_length, double* turn_rate, double* tension, double* geometric) {
+  directions<false>(rows, h, length, stiffness, damping, turning, x, y, vx, vy, ux, uy, inverse_length, turn_rate,
+                    tension, geometric);
 }
 
 BELTLIFE_VECTOR void directions_turning(int rows, double h, const LaneNumber& length, const LaneNumber& stiffness,
-                                        const LaneNumber& damping, const double* x, const double* y, const double* vx,
-                                        const double* vy, double* ux, double* uy, double* inverse_length,
-                                        double* turn_rate, double* tension, double* geometric) {
-  directions<true>(rows, h, length, stiffness, damping, x, y, vx, vy, ux, uy, inverse_length, turn_rate, tension,
-                   geometric);
+                                        const LaneNumber& damping, const LaneNumber& turning, const double* x,
+                                        const double* y, const double* vx, const double* vy, double* ux, double* uy,
+                                        double* inverse_length, double* turn_rate, double* tension, double* geometric) {
+  directions<true>(rows, h, length, stiffness, damping, turning, x, y, vx, vy, ux, uy, inverse_length, turn_rate,
+                   tension, geometric);
 }
 
 BELTLIFE_VECTOR void node_forces_plain(int rows, const double* ux, const double* uy, const double* tension, double* fx,
@@ -113,9 +113,10 @@ BELTLIFE_VECTOR void node_forces_stiff(int rows, const LaneNumber& stiffness, co
 
 void lane_elements(LaneBelt& b) {
   const bool bending = b.bending_damping || b.bending_stiffness;
-  (bending ? directions_turning : directions_plain)(
-      b.rows, b.step, b.length, b.axial_stiffness, b.axial_damping, b.x.data(), b.y.data(), b.vx.data(), b.vy.data(),
-      b.ux.data(), b.uy.data(), b.inverse_length.data(), b.turn_rate.data(), b.tension.data(), b.geometric.data());
+  (bending ? directions_turning : directions_plain)(b.rows, b.step, b.length, b.axial_stiffness, b.axial_damping,
+                                                    b.turning_tension, b.x.data(), b.y.data(), b.vx.data(), b.vy.data(),
+                                                    b.ux.data(), b.uy.data(), b.inverse_length.data(),
+                                                    b.turn_rate.data(), b.tension.data(), b.geometric.data());
   if (!bending)
     node_forces_plain(b.rows, b.ux.data(), b.uy.data(), b.tension.data(), b.fx.data(), b.fy.data());
   else

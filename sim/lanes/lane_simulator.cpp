@@ -25,30 +25,32 @@ BELTLIFE_VECTOR void fastest(int rows, const double* vx, const double* vy, LaneN
 // (d^2 - r^2)/2r, the gap to first order, which needs no root.
 BELTLIFE_VECTOR void nearest_pulleys(int rows, int pulleys, const LaneNumber& reach, const LaneNumber* cx,
                                      const LaneNumber* cy, const LaneNumber* radius, const double* x, const double* y,
-                                     LaneNumber* work, double* found) {
-  for (int p = 0; p < pulleys; ++p)
+                                     double* gaps, double* found) {
+  for (int i = 0; i < rows * lanes; ++i) {
+    gaps[i] = 1e300;
+    found[i] = -1;
+  }
+  for (int p = 0; p < pulleys; ++p) {
+    const double* px = cx[p].of;
+    const double* py = cy[p].of;
+    const double number = p;
+    alignas(64) double far2[lanes], r2[lanes], scale[lanes];
     for (int k = 0; k < lanes; ++k) {
       const double r = radius[p][k], far = r + reach[k];
-      work[3 * p][k] = far * far;
-      work[3 * p + 1][k] = r * r;
-      work[3 * p + 2][k] = 0.5 / r;
+      far2[k] = far * far;
+      r2[k] = r * r;
+      scale[k] = 0.5 / r;
     }
-  for (int j = 0; j < rows; ++j) {
-    const double *xj = x + j * lanes, *yj = y + j * lanes;
-    double* out = found + j * lanes;
-    LaneNumber least;
-    for (int k = 0; k < lanes; ++k) {
-      least[k] = 1e300;
-      out[k] = -1;
-    }
-    for (int p = 0; p < pulleys; ++p) {
-      const LaneNumber &px = cx[p], &py = cy[p], &far2 = work[3 * p], &r2 = work[3 * p + 1], &scale = work[3 * p + 2];
+    for (int j = 0; j < rows; ++j) {
+      const double *xj = x + j * lanes, *yj = y + j * lanes;
+      double *gap = gaps + j * lanes, *out = found + j * lanes;
       BELTLIFE_EACH_LANE(k) {
         const double dx = xj[k] - px[k], dy = yj[k] - py[k];
-        const double d2 = dx * dx + dy * dy, gap = (d2 - r2[k]) * scale[k];
-        const bool nearer = (d2 < far2[k]) & (gap < least[k]);
-        least[k] = nearer ? gap : least[k];
-        out[k] = nearer ? static_cast<double>(p) : out[k];
+        const double d2 = dx * dx + dy * dy;
+        const double here = d2 < far2[k] ? (d2 - r2[k]) * scale[k] : 1e301;
+        const double before = gap[k];
+        out[k] = here < before ? number : out[k];
+        gap[k] = here < before ? here : before;
       }
     }
   }
@@ -83,7 +85,7 @@ LaneSimulator::LaneSimulator(const std::vector<LaneDrive>& drives, LaneUse use, 
   near_.assign(static_cast<std::size_t>(belt_.rows) * lanes, -1);
   const int pulleys = models.front()->pulleys;
   for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_, &radii_}) v->resize(pulleys);
-  search_work_.resize(3 * pulleys);
+  gaps_.resize(near_.size());
   found_.resize(near_.size());
   loads_.resize(pulleys);
 }
@@ -100,7 +102,7 @@ void LaneSimulator::search() {
   for (int k = 0; k < lanes; ++k)
     for (int p = 0; p < pulleys; ++p) radii_[p][k] = drive_of(k).model->pulley_radius[p];
   nearest_pulleys(rows, pulleys, reach, centre_x_.data(), centre_y_.data(), radii_.data(), belt_.x.data(),
-                  belt_.y.data(), search_work_.data(), found_.data());
+                  belt_.y.data(), gaps_.data(), found_.data());
   for (std::size_t at = 0; at < near_.size(); ++at) {
     const int nearest = static_cast<int>(found_[at]);
     if (near_[at] == nearest) continue;

@@ -54,12 +54,11 @@ class LaneSimulator {
   std::int64_t step_count_ = 0, next_search_ = 0, search_steps_ = 1;
   LaneBelt belt_;
   std::vector<std::unique_ptr<Drive>> drives_;
-  std::vector<int> near_;      // candidate pulley of each row and lane, -1: none
-  std::vector<double> found_;  // the same, while searching
+  std::vector<int> near_;             // candidate pulley of each row and lane, -1: none
+  std::vector<double> gaps_, found_;  // the same, while searching
   bool placed_ = false;
   std::vector<LaneNumber> centre_x_, centre_y_, centre_vx_, centre_vy_, radii_;  // by pulley
-  std::vector<LaneNumber> search_work_;
-  std::vector<LaneLoads> loads_;  // by pulley
+  std::vector<LaneLoads> loads_;                                                 // by pulley
 };
 
 }  // namespace beltlife

@@ -95,7 +95,8 @@ struct StepLimit {
   double limit_s = 0;
 };
 
-/// Every bound of this drive under an explicit scheme, shortest first; `stable_step` is the shortest times a margin.
+/// Every bound of this drive under a scheme, shortest first: of stability for the explicit ones, of accuracy for the
+/// linearly implicit one. `stable_step` is the shortest times a margin.
 std::vector<StepLimit> step_limits(const Model& model, Scheme scheme);
 double stable_step(const Model& model, Scheme scheme);
 
