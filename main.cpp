@@ -41,7 +41,8 @@ void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
       ->type_name("PATH=VALUE")
       ->take_all()
       ->expected(1);
-  app.add_option("--scheme", s.scheme, "time integrator: thesis or symplectic_euler (same as --set solver.scheme=...)");
+  app.add_option("--scheme", s.scheme,
+                 "time integrator: linearly_implicit, symplectic_euler or thesis (same as --set solver.scheme=...)");
   app.add_option("--step", s.step, "time step in s (same as --set solver.step_s=...)");
   app.add_option("--elements", s.elements, "belt elements (same as --set belt.elements=...)");
   app.add_flag("--json", o.json, "print one JSON object on standard output");
@@ -57,6 +58,7 @@ void run_flags(CLI::App& app, CommandOptions& o) {
       ->type_name("N")
       ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); },
                            "a whole number from 0 to 1024"));
+  app.add_flag("--force", o.force, "run with a step beyond the scheme's predicted limit");
   app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")
       ->type_name("FILE.h5")
       ->check(not_empty());

@@ -120,7 +120,7 @@ std::string small_map_script(const SceneSpec& scene, const DriveModes& modes) {
   const auto shown = [&](const Crossing& c) { return can_resonate(c, scene); };
   std::string s =
       "set terminal svg size 960,560 dynamic noenhanced font 'Helvetica,12'\n"
-      "set xlabel 'crank speed, r/min'\nset ylabel 'frequency, Hz'\n"
+      "set xlabel 'crank speed, r/min' offset 0,0.4\nset ylabel 'frequency, Hz'\n"
       "set key below center maxrows 2\nset grid lc rgb '#e6e6e6'\nset tmargin 3\n";
   s += fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", first, last, top);
   s += range_bars(scene, first, last, top) + order_rays(orders, first, last, top) + data_blocks(modes, shown);

@@ -10,6 +10,7 @@
 #include "sim/eval/summary.h"
 #include "sim/kernels/kernel.h"
 #include "sim/run.h"
+#include "sim/scene/pitch_line.h"
 #include "sim/schemes/scheme.h"
 
 namespace beltlife {
@@ -22,7 +23,11 @@ nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretc
                    {"tension_n", layout.tension},        {"unstretched_length_m", unstretched},
                    {"pulleys", nlohmann::json::array()}, {"spans", nlohmann::json::array()}};
   for (int p = 0; p < m.pulleys; ++p) {
-    j["pulleys"].push_back({{"name", m.body_name[p]}, {"wrap_deg", layout.route.wrap[p] * degree}});
+    j["pulleys"].push_back({{"name", m.body_name[p]},
+                            {"pitch_diameter_mm", pitch_diameter_mm(m.scene, m.scene.pulley[p])},
+                            {"wrap_deg", layout.route.wrap[p] * degree}});
+    if (m.scene.pulley[p].effective_diameter_mm)
+      j["pulleys"].back()["effective_diameter_mm"] = *m.scene.pulley[p].effective_diameter_mm;
     j["spans"].push_back(
         {{"name", span_name(m.scene, static_cast<std::size_t>(p))}, {"length_mm", 1e3 * layout.route.spans[p].length}});
   }
@@ -31,28 +36,49 @@ nlohmann::json layout_json(const Model& m, const Layout& layout, double unstretc
 
 void print_layout(const Model& m) {
   const StaticState& s = m.statics;
-  Table table({"pulley", "side", "x mm", "y mm", "wrap deg placed", "at rest", "span to next mm placed", "at rest"});
-  for (int p = 0; p < m.pulleys; ++p)
-    table.row({m.body_name[p], std::string(enum_name(m.scene.pulley[p].side)),
-               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].x),
-               fmt::format("{:.2f}", 1e3 * s.balance.route.circles[p].y),
-               fmt::format("{:.1f}", s.placed.route.wrap[p] * degree),
-               fmt::format("{:.1f}", s.balance.route.wrap[p] * degree),
-               fmt::format("{:.1f}", 1e3 * s.placed.route.spans[p].length),
-               fmt::format("{:.1f}", 1e3 * s.balance.route.spans[p].length)});
+  const bool effective = has_effective_diameters(m.scene), arm = m.tensioner.pulley >= 0;
+  // Of a drive without an arm both states are the same.
+  std::vector<std::string> header{"pulley", "side"};
+  if (effective) header.push_back("effective dia mm");
+  for (const char* name : {"pitch dia mm", "x mm", "y mm"}) header.push_back(name);
+  if (arm) header.push_back("wrap deg placed");
+  header.push_back(arm ? "wrap deg at rest" : "wrap deg");
+  if (arm) header.push_back("span to next mm placed");
+  header.push_back(arm ? "span to next mm at rest" : "span to next mm");
+  Table table(header);
+  for (int p = 0; p < m.pulleys; ++p) {
+    const PulleySpec& spec = m.scene.pulley[p];
+    std::vector<std::string> row{m.body_name[p], std::string(enum_name(spec.side))};
+    if (effective) row.push_back(spec.effective_diameter_mm ? fmt::format("{:.2f}", *spec.effective_diameter_mm) : "-");
+    row.push_back(fmt::format("{:.2f}", pitch_diameter_mm(m.scene, spec)));
+    row.push_back(fixed_text(1e3 * s.balance.route.circles[p].x, 2));
+    row.push_back(fixed_text(1e3 * s.balance.route.circles[p].y, 2));
+    if (arm) row.push_back(fmt::format("{:.1f}", s.placed.route.wrap[p] * degree));
+    row.push_back(fmt::format("{:.1f}", s.balance.route.wrap[p] * degree));
+    if (arm) row.push_back(fmt::format("{:.1f}", 1e3 * s.placed.route.spans[p].length));
+    row.push_back(fmt::format("{:.1f}", 1e3 * s.balance.route.spans[p].length));
+    table.row(row);
+  }
   fmt::print("{}\n", table.text(0));
-  Table numbers({"", "placed", "at rest"});
-  numbers.row({"belt path mm", fmt::format("{:.1f}", 1e3 * s.placed.route.length),
-               fmt::format("{:.1f}", 1e3 * s.balance.route.length)});
-  numbers.row({"tension N", fmt::format("{:.1f}", s.placed.tension), fmt::format("{:.1f}", s.balance.tension)});
-  numbers.row({"unstretched length mm", fmt::format("{:.1f}", 1e3 * s.placed_unstretched_length),
-               fmt::format("{:.1f}", 1e3 * s.unstretched_length)});
-  if (m.tensioner.pulley >= 0) numbers.row({"arm angle rad", "0.0000", fmt::format("{:.4f}", s.balance.arm_angle)});
+  Table numbers(arm ? std::vector<std::string>{"", "placed", "at rest"} : std::vector<std::string>{"", "at rest"});
+  const auto add = [&](const char* what, double placed, double rest) {
+    if (arm)
+      numbers.row({what, fixed_text(placed, 1), fixed_text(rest, 1)});
+    else
+      numbers.row({what, fixed_text(rest, 1)});
+  };
+  add("belt path mm", 1e3 * s.placed.route.length, 1e3 * s.balance.route.length);
+  add("tension N", s.placed.tension, s.balance.tension);
+  add("unstretched length mm", 1e3 * s.placed_unstretched_length, 1e3 * s.unstretched_length);
+  if (arm) add("arm angle deg", 0, s.balance.arm_angle * degree);
   fmt::print("{}\n", numbers.text(0));
-  if (m.tensioner.pulley >= 0)
+  if (const auto length = m.scene.belt.effective_length_mm)
+    fmt::print("effective belt length {:g} mm, {:.1f} mm along the cord\n\n", *length,
+               *length + 2 * std::numbers::pi * m.scene.belt.effective_line_differential_mm.value_or(0));
+  if (arm)
     fmt::print(
-        "placed: the arm as the scene places it, with the belt that would be at rest there (this belt would carry "
-        "{:.0f} N)\n\n",
+        "placed: the arm as the scene places it, with the belt that would be at rest there (the scene's own belt "
+        "would carry {:.0f} N)\n\n",
         s.placed_strain_tension);
 }
 
@@ -62,7 +88,7 @@ int run_check(const CommandOptions& o) {
   const LoadedScene l = load_scene(o.scenes.at(0), o);
   const Model& m = l.model;
   const auto limits = step_limits(m, m.scene.solver.scheme);
-  const auto program = force_program(m);
+  const auto kernels = kernel_names(m);
   if (o.json) {
     nlohmann::json j{{"scene", o.scenes[0]},
                      {"scheme", enum_name(m.scene.solver.scheme)},
@@ -73,7 +99,7 @@ int run_check(const CommandOptions& o) {
                      {"quantities", quantity_names(m)},
                      {"parameters", number_paths(l.file.scene)},
                      {"step_limits", nlohmann::json::array()}};
-    for (const Kernel& k : program) j["kernels"].push_back(k.name);
+    for (const std::string& name : kernels) j["kernels"].push_back(name);
     for (const StepLimit& limit : limits)
       j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
     if (m.pulleys > 0) {
@@ -88,6 +114,7 @@ int run_check(const CommandOptions& o) {
     return 0;
   }
   fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
+  if (m.pulleys == 0) fmt::print("a ring without pulleys has no layout and no statics\n\n");
   if (m.pulleys > 0) {
     print_layout(m);
     const auto all = clearances(m.scene, m.statics.balance.route);
@@ -101,7 +128,7 @@ int run_check(const CommandOptions& o) {
   for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
   fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (stable up to {:.4g})\nkernels:", table.text(0),
              enum_name(m.scene.solver.scheme), m.belt.nodes, run_step(m), limits.front().limit_s);
-  for (std::size_t i = 0; i < program.size(); ++i) fmt::print("{} {}", i ? "," : "", program[i].name);
+  for (std::size_t i = 0; i < kernels.size(); ++i) fmt::print("{} {}", i ? "," : "", kernels[i]);
   fmt::print("\n{} quantities can be studied; --json lists them\n", quantity_names(m).size());
   return 0;
 }

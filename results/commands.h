@@ -15,6 +15,7 @@ struct CommandOptions {
   int threads = 0;                    ///< --threads, 0: all
   bool json = false;
   bool quiet = false;
+  bool force = false;           ///< --force: run with a step beyond the predicted limit
   bool each_range = false;      ///< --each-range of simulate
   bool profile = false;         ///< --profile: time by kernel
   std::string details;          ///< --details of life: text file for what simulate prints, empty: none

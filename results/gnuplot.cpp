@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -47,12 +48,26 @@ std::string preamble(int width, int height) {
 }
 
 std::string script_of(const Chart& chart) {
-  double key_width = 0;  // px; a key of several lines takes its height from the curves
-  for (const Curve& curve : chart.curves) key_width += 60 + 6.5 * static_cast<double>(curve.label.size());
-  std::string s = preamble(480, 255 + 18 * static_cast<int>(key_width / 440));
-  s += fmt::format("set xlabel {}\nset ylabel {}\nset key outside top center horizontal\n",
-                   gnuplot_quoted(chart.x_label), gnuplot_quoted(chart.y_label));
+  // A key takes its lines from the curves' height, so the chart grows with them; columns are as wide as the longest
+  // label. A single curve is named by its axis.
+  std::size_t longest = 0;
+  for (const Curve& curve : chart.curves) longest = std::max(longest, curve.label.size());
+  const int columns = std::max(1, static_cast<int>(400 / (60 + 6.5 * static_cast<double>(longest))));
+  const bool keyed = chart.curves.size() > 1;
+  const int lines = keyed ? (static_cast<int>(chart.curves.size()) + columns - 1) / columns : 0;
+  std::string s = preamble(480, 237 + 17 * lines);
+  s += fmt::format("set xlabel {}\nset ylabel {}\nset key {}\n", gnuplot_quoted(chart.x_label),
+                   gnuplot_quoted(chart.y_label), keyed ? "outside top center horizontal" : "off");
   if (chart.x_max > 0) s += fmt::format("set xrange [0:{:g}]\n", chart.x_max);
+  int object = 0;
+  for (const Chart::Stretch& at : chart.stretches) {
+    s += fmt::format("set object {} rect from {:g},graph 0 to {:g},graph 1 fc rgb '#edf1f5' fs solid noborder behind\n",
+                     ++object, at.from, at.to);
+    const double middle = 0.5 * (at.from + at.to);
+    if (middle < 0.02 * chart.x_max || middle > 0.98 * chart.x_max) continue;  // would run into the axis
+    s += fmt::format("set label {} at {:g},graph 0.98 right rotate by 90 font ',9' tc rgb '#777777' back\n",
+                     gnuplot_quoted(at.label), middle);
+  }
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     s += fmt::format("$d{} << EOD\n", i);
     const Curve& c = chart.curves[i];
@@ -73,9 +88,12 @@ std::string script_of(const StackedBars& chart) {
   s += "set style fill solid 0.9 border rgb '#ffffff'\nset boxwidth 0.7\nset xtics nomirror scale 0\nset border 3\nset "
        "ytics nomirror\n"
        "set key outside right top vertical invert\nunset grid\nset grid ytics lc rgb '#dddddd'\n";
-  std::size_t letters = 0;
+  std::size_t letters = 0, longest = 0;
   for (const std::string& bar : chart.bars) letters += bar.size() + 2;
-  if (letters > 36) s += "set xtics rotate by -35\n";  // names side by side would run into each other
+  for (const StackedBars::Layer& layer : chart.layers) longest = std::max(longest, layer.label.size());
+  const double beside_key = 340 - 6.5 * static_cast<double>(longest);  // px, of the axis below the bars
+  if (6.2 * static_cast<double>(letters) > beside_key)
+    s += "set xtics rotate by -35\n";  // names side by side would run into each other
   s += "$d << EOD\n";
   for (std::size_t b = 0; b < chart.bars.size(); ++b) {
     for (const StackedBars::Layer& layer : chart.layers) s += fmt::format("{:.6g} ", layer.heights[b]);

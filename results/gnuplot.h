@@ -17,6 +17,12 @@ struct Chart {
   std::string x_label, y_label;
   std::vector<Curve> curves;
   double x_max = 0;  ///< 0: by the data
+  /// Stretches of the x axis that are shaded and named, such as the belt on a pulley; they need x_max.
+  struct Stretch {
+    std::string label;
+    double from = 0, to = 0;
+  };
+  std::vector<Stretch> stretches;
 };
 
 /// Bars of layers on top of each other, in percent or what else adds up.

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "results/table.h"
 
 namespace beltlife {
 namespace {
@@ -46,7 +49,14 @@ std::string html_table(const std::string& id, const Row& header, const std::vect
 
 std::string html_number(double value, int digits) {
   if (std::isnan(value)) return "-";
-  return std::isinf(value) ? "no end" : fmt::format("{:.{}f}", value, digits);
+  return std::isinf(value) ? "no end" : fixed_text(value, digits);
+}
+
+std::string html_rounded(double value, int digits) {
+  if (!std::isfinite(value) || value == 0) return html_number(value);
+  const int places = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const double unit = std::pow(10.0, -places);
+  return html_number(std::round(value / unit) * unit, std::max(places, 0));
 }
 
 }  // namespace beltlife

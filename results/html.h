@@ -23,5 +23,7 @@ std::string html_table(const std::string& id, const Row& header, const std::vect
 
 /// Fixed digits; "no end" where infinite, "-" where there is none.
 std::string html_number(double value, int digits = 0);
+/// So many significant digits, written out: 14900 for 14867 to three.
+std::string html_rounded(double value, int digits);
 
 }  // namespace beltlife

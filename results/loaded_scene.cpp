@@ -33,19 +33,22 @@ void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const s
                "a measurement of the whole profile, or shorter profile.hold_s, or fewer ranges"}});
 }
 
-// Elements longer than a fifth of a radius touch a pulley with one or two nodes at a time.
-void warn_coarse(const Model& m) {
-  if (m.pulleys == 0) return;
-  const auto smallest = std::min_element(m.pulley_radius.begin(), m.pulley_radius.end());
-  if (m.belt.element_length <= *smallest / 5) return;
-  fmt::print(stderr,
-             "warning: elements of {:.1f} mm are coarse for pulley {}; contact forces and life need at least {:.0f} "
-             "elements\n",
-             1e3 * m.belt.element_length, m.body_name[static_cast<std::size_t>(smallest - m.pulley_radius.begin())],
-             std::ceil(5 * m.belt.unstretched_length / *smallest));
+}  // namespace
+
+bool has_effective_diameters(const SceneSpec& scene) {
+  return std::any_of(scene.pulley.begin(), scene.pulley.end(),
+                     [](const PulleySpec& p) { return p.effective_diameter_mm.has_value(); });
 }
 
-}  // namespace
+std::string coarse_mesh(const Model& m) {
+  if (m.pulleys == 0) return "";
+  const auto smallest = std::min_element(m.pulley_radius.begin(), m.pulley_radius.end());
+  if (m.belt.element_length <= *smallest / 5) return "";
+  return fmt::format(
+      "elements of {:.1f} mm are coarse for pulley {}; contact forces and life need at least {:.0f} elements",
+      1e3 * m.belt.element_length, m.body_name[static_cast<std::size_t>(smallest - m.pulley_radius.begin())],
+      std::ceil(5 * m.belt.unstretched_length / *smallest));
+}
 
 LoadedScene load_scene(const std::string& path, const CommandOptions& o) {
   LoadedScene l{read_scene(path, o.settings), {}, {}, out_of(path, o), {}};
@@ -60,7 +63,7 @@ LoadedScene load_scene(const std::string& path, const CommandOptions& o) {
     l.measured = read_speed_csv(csv);
     refuse_short(*l.measured, l.file.scene, csv.string());
   }
-  warn_coarse(l.model);
+  if (const std::string words = coarse_mesh(l.model); !words.empty()) fmt::print(stderr, "warning: {}\n", words);
   if (!l.out.empty()) l.solved = solve_drive(l.model);
   return l;
 }

@@ -21,6 +21,13 @@ struct LoadedScene {
   const MeasuredSpeed* speed() const { return measured ? &*measured : nullptr; }
 };
 
+/// Whether any pulley is stated by its effective diameter, so that tables show both.
+bool has_effective_diameters(const SceneSpec& scene);
+
+/// What is to be said of a mesh with elements longer than a fifth of a pulley's radius, which touch it with one or two
+/// nodes at a time; else empty.
+std::string coarse_mesh(const Model& model);
+
 /// Reads and compiles; warns on standard error of a mesh too coarse for its pulleys. Throws BadInput.
 LoadedScene load_scene(const std::string& path, const CommandOptions& options);
 

@@ -176,14 +176,14 @@ void print_transverse(const std::vector<Modes>& points) {
 }
 
 void print_crossings(const std::vector<Crossing>& found, const SceneSpec& scene) {
-  Table table({"order", "r/min", "Hz", "mode", "within 5 % of"});
+  Table table({"order", "r/min", "Hz", "damping ratio", "mode", "within 5 % of"});
   std::size_t near = 0, printed = 0;
   for (const Crossing& c : found) {
     if (c.near) ++near;
     if (!can_resonate(c, scene)) continue;
     ++printed;
-    table.row(
-        {fmt::format("{:g}", c.order), fmt::format("{:.0f}", c.crank_rpm), hertz(c.frequency_hz), c.mode, *c.near});
+    table.row({fmt::format("{:g}", c.order), fmt::format("{:.0f}", c.crank_rpm), hertz(c.frequency_hz),
+               fmt::format("{:.3f}", c.damping_ratio), c.mode, *c.near});
   }
   if (printed > 0) fmt::print("{}\n", table.text(0));
   fmt::print(

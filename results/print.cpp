@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "results/table.h"
 
 namespace beltlife {
 namespace {
 
-constexpr double mega = 1e-6;
+constexpr double mega = 1e-6, degree = 180 / std::numbers::pi;
 
 }  // namespace
 
@@ -136,14 +138,13 @@ std::string text_of(const RangeSummary& s) {
   Table spans({"span", "tension N mean", "min", "max", "deflection mm min", "max"});
   for (const SpanSummary& span : s.spans)
     spans.row({span.name, fmt::format("{:.0f}", span.tension_n_mean), fmt::format("{:.0f}", span.tension_n_min),
-               fmt::format("{:.0f}", span.tension_n_max), fmt::format("{:.1f}", span.deflection_mm_min),
-               fmt::format("{:.1f}", span.deflection_mm_max)});
+               fmt::format("{:.0f}", span.tension_n_max), fixed_text(span.deflection_mm_min, 1),
+               fixed_text(span.deflection_mm_max, 1)});
   Table pulleys({"pulley", "speed r/min", "slip %", "hub load N", "max", "direction deg", "belt torque N m"});
   for (const PulleySummary& p : s.pulleys)
-    pulleys.row({p.name, fmt::format("{:.1f}", p.speed_rpm_mean),
-                 p.slip_percent ? fmt::format("{:.2f}", *p.slip_percent) : "-", fmt::format("{:.0f}", p.hub_load_n),
-                 fmt::format("{:.0f}", p.hub_load_n_max), fmt::format("{:.0f}", p.hub_direction_deg),
-                 fmt::format("{:.2f}", p.torque_n_m_mean)});
+    pulleys.row({p.name, fmt::format("{:.1f}", p.speed_rpm_mean), p.slip_percent ? fixed_text(*p.slip_percent, 2) : "-",
+                 fmt::format("{:.0f}", p.hub_load_n), fmt::format("{:.0f}", p.hub_load_n_max),
+                 fixed_text(p.hub_direction_deg, 0), fixed_text(p.torque_n_m_mean, 2)});
   if (!s.spans.empty()) out += spans.text(2) + "\n" + pulleys.text(2) + "\n";
   if (s.output) {
     out += fmt::format("  {}: mean {:.1f} r/min, {:.2f} N m; amplitudes by crank order\n", s.output->body,
@@ -158,14 +159,14 @@ std::string text_of(const RangeSummary& s) {
   Table power({"power", "W"});
   for (std::size_t i = 0; i < s.power_w.size(); ++i)
     if (static_cast<Energy>(i) == Energy::stored || s.power_w[i] != 0)
-      power.row({std::string(energy_names[i]), fmt::format("{:.1f}", s.power_w[i])});
+      power.row({std::string(energy_names[i]), fixed_text(s.power_w[i], 1)});
   out += power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * s.energy_residual);
   out +=
       fmt::format("  mean span tensions change by {:.2f} % at most from the first half of the window to the second\n",
                   100 * s.drift);
   if (s.arm_angle_mean)
-    out += fmt::format("  tensioner arm {:.4f} rad, between {:.4f} and {:.4f}\n", *s.arm_angle_mean, *s.arm_angle_min,
-                       *s.arm_angle_max);
+    out += fmt::format("  tensioner arm {:.2f} deg from where the scene places it, between {:.2f} and {:.2f}\n",
+                       *s.arm_angle_mean * degree, *s.arm_angle_min * degree, *s.arm_angle_max * degree);
   return out;
 }
 
@@ -177,11 +178,10 @@ std::string loss_table(const std::vector<RangeSummary>& ranges) {
     const double other = power(Energy::lost_belt_axial) + power(Energy::lost_contact_normal) +
                          power(Energy::lost_shafts) + power(Energy::lost_gears) +
                          power(Energy::lost_tensioner_damping) + power(Energy::lost_tensioner_friction);
-    table.row({s.name, fmt::format("{:.0f}", power(Energy::work_torque_tables)),
-               fmt::format("{:.0f}", power(Energy::work_driver)),
+    table.row({s.name, fixed_text(power(Energy::work_torque_tables), 0), fixed_text(power(Energy::work_driver), 0),
                fmt::format("{:.0f}", power(Energy::lost_belt_bending)),
                fmt::format("{:.0f}", power(Energy::lost_friction)), fmt::format("{:.0f}", other),
-               fmt::format("{:.3f}", 100 * s.energy_residual)});
+               fixed_text(100 * s.energy_residual, 3)});
   }
   return table.text(0);
 }
@@ -209,9 +209,11 @@ std::string text_of(const Life& life, const std::string& over) {
                 number_text(100 * range.damage_share, "{:.1f}")});
   out += pulleys.text(0) + "\n" + ranges.text(0);
   for (const RangeLife& range : life.ranges)
-    if (range.error) out += "  no life in range " + range.name + ": " + *range.error + "\n";
+    if (range.error) out += "  no life: " + *range.error + "\n";  // names the range
+  const bool said = std::any_of(life.ranges.begin(), life.ranges.end(), [](const auto& r) { return r.error; });
   if (life.error)
-    out += "\nNo life: " + *life.error + "\n";
+    out += fmt::format("\nNo life over {}: {}\n", over,
+                       said ? "some of its ranges have none, as said above" : *life.error);
   else if (std::isinf(life.life_h))
     out += fmt::format("\nLife over {}: no end\n", over);
   else

@@ -18,7 +18,18 @@ constexpr double degree = 180 / std::numbers::pi, rpm = 30 / std::numbers::pi;
 double direction(const QuasiStaticPulley& p) { return std::atan2(p.hub_y, p.hub_x) * degree; }
 
 std::string band(double value, double low, double high) {
-  return high > low ? fmt::format("{:.0f} ({:.0f} to {:.0f})", value, low, high) : fmt::format("{:.0f}", value);
+  return high - low >= 1 ? fmt::format("{:.0f} ({:.0f} to {:.0f})", value, low, high) : fmt::format("{:.0f}", value);
+}
+
+std::string safety_text(const QuasiStaticPulley& p) {
+  if (!p.slip_safety) return "-";
+  return fmt::format("{:.{}f}{}", *p.slip_safety, *p.slip_safety < 10 ? 2 : 1, p.slips ? " slips" : "");
+}
+
+std::string arm_text(const QuasiStaticRange& r) {
+  const double low = *r.arm_angle_low * degree, high = *r.arm_angle_high * degree;
+  const std::string angle = fixed_text(*r.arm_angle * degree, 1);
+  return high - low < 0.05 ? angle : fmt::format("{} ({} to {})", angle, fixed_text(low, 1), fixed_text(high, 1));
 }
 
 nlohmann::json json_of(const QuasiStaticRange& r) {
@@ -81,10 +92,11 @@ std::string tensions_text(const std::vector<QuasiStaticRange>& ranges) {
         if (!r.error) row.push_back(value(r));
       table.row(row);
     };
-    add("of it centrifugal", [](const auto& r) { return fmt::format("{:.0f}", r.centrifugal); });
-    if (first->arm_angle) add("arm angle rad", [](const auto& r) { return fmt::format("{:.4f}", *r.arm_angle); });
-    add("driver W", [](const auto& r) { return fmt::format("{:.0f}", r.driver_power); });
-    add("torque tables W", [](const auto& r) { return fmt::format("{:.0f}", r.table_power); });
+    add("centrifugal part of each", [](const auto& r) { return fmt::format("{:.0f}", r.centrifugal); });
+    add("belt speed m/s", [](const auto& r) { return fmt::format("{:.1f}", r.belt_speed); });
+    if (first->arm_angle) add("arm angle deg", [](const auto& r) { return arm_text(r); });
+    add("driver W", [](const auto& r) { return fixed_text(r.driver_power, 0); });
+    add("torque tables W", [](const auto& r) { return fixed_text(r.table_power, 0); });
     add("losses W", [](const auto& r) { return fmt::format("{:.0f}", r.loss); });
     out += table.text(0);
   }
@@ -101,9 +113,8 @@ std::string pulleys_text(const std::vector<QuasiStaticRange>& ranges) {
   for (const QuasiStaticRange& r : ranges)
     for (const QuasiStaticPulley& p : r.pulleys) {
       any = true;
-      table.row({r.name, p.name, band(p.hub_load, p.hub_load_low, p.hub_load_high), fmt::format("{:.0f}", direction(p)),
-                 fmt::format("{:.2f}", p.torque), p.slip_safety ? fmt::format("{:.1f}", *p.slip_safety) : "-",
-                 fmt::format("{:.0f}", p.bending_loss)});
+      table.row({r.name, p.name, band(p.hub_load, p.hub_load_low, p.hub_load_high), fixed_text(direction(p), 0),
+                 fixed_text(p.torque, 2), safety_text(p), fmt::format("{:.0f}", p.bending_loss)});
     }
   return any ? table.text(0) + "\n" : "";
 }
@@ -114,7 +125,11 @@ std::string life_text(const Life& life) {
     for (const PulleyLife& p : range.pulleys)
       table.row({range.name, p.name, fmt::format("{:.3f}", 1e-6 * p.sigma_m), fmt::format("{:.3f}", 1e-6 * p.sigma_a),
                  fmt::format("{:.1f}", 100 * p.damage_share)});
-  return table.text(0) + "\n" +
+  Table ranges({"range", "time %", "estimated life h", "log10", "damage %"});
+  for (const RangeLife& range : life.ranges)
+    ranges.row({range.name, fmt::format("{:.0f}", 100 * range.duty_share), number_text(range.life_h, "{:.3g}"),
+                number_text(std::log10(range.life_h), "{:.1f}"), number_text(100 * range.damage_share, "{:.1f}")});
+  return table.text(0) + "\n" + ranges.text(0) + "\n" +
          (life.error ? "no estimate of the life: " + *life.error + "\n\n"
                      : fmt::format("estimated life over the duty cycle: {:.3g} h (log10 {:.1f})\n\n", life.life_h,
                                    life.log10_life_h));
@@ -126,22 +141,24 @@ std::string statics_text(const Model& m) {
   std::string out;
   const DriveStatics statics = drive_statics(m);
   if (const auto& rows = statics.take_up; !rows.empty()) {
-    Table table({"take-up", "arm rad", "belt path mm", "unstretched mm", "tension N", "ended by"});
+    Table table({"take-up", "arm deg", "belt path mm", "unstretched mm", "tension N", "ended by"});
     for (const TakeUpRow& r : rows)
-      table.row({r.name, fmt::format("{:.4f}", r.arm_angle), fmt::format("{:.1f}", 1e3 * r.path_length),
+      table.row({r.name, fixed_text(r.arm_angle * degree, 1), fmt::format("{:.1f}", 1e3 * r.path_length),
                  fmt::format("{:.1f}", 1e3 * r.unstretched_length), fmt::format("{:.0f}", r.tension), r.reason});
     out += table.text(0) + "\n";
   }
   const auto& ranges = statics.ranges;
   if (ranges.empty()) return out;
-  out += "quasi-static: steady running at the mean speed, no ripple; in brackets between the arm's friction limits\n\n";
+  out += fmt::format("quasi-static: steady running at the mean speed, no ripple{}\n\n",
+                     m.tensioner.pulley >= 0 ? "; in brackets between the arm's friction limits" : "");
   out += tensions_text(ranges) + pulleys_text(ranges);
   bool solved = false;
   for (const QuasiStaticRange& r : ranges) solved = solved || !r.error;
   if (solved)
     out += fmt::format(
-               "estimate of stress and life, from steady tensions and T' l0/R times {:.2f} (sampled) or {:.2f} "
-               "(resolved), measured on the thesis' drive\n(no vibration: `beltlife life` simulates)\n\n",
+               "estimate of stress and life, from steady tensions alone: ranks drives, says no hours (`beltlife life` "
+               "simulates)\npeak normal forces are tension x element length / radius x {:.2f} (sampled) or {:.2f} "
+               "(resolved)\n\n",
                sampled_peak_factor, resolved_peak_factor) +
            life_text(statics.estimate);
   return out;

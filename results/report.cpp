@@ -16,7 +16,7 @@ h1{font-size:1.6rem;margin:.2rem 0}h2{margin-top:2.2rem;border-bottom:2px solid 
 table{border-collapse:separate;border-spacing:0;margin:.5rem 0 .8rem;font-size:.88rem;font-variant-numeric:tabular-nums}
 th,td{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{vertical-align:bottom;white-space:normal}
 th.w,td.w{text-align:left}td:first-child{position:sticky;left:0;background:#fff}.alarm{color:#b00020;font-weight:bold}.scroll{overflow-x:auto}tbody tr:hover{background:#f3f7fa}
-#statics-tensions td+td{white-space:normal}#life-pulleys{font-size:.82rem}#life-pulleys th,#life-pulleys td{padding:.15rem .5rem}
+#statics-tensions td+td,[id^=modes-rotational] td:last-child{white-space:normal}#life-pulleys{font-size:.82rem}#life-pulleys th,#life-pulleys td{padding:.15rem .5rem}
 #key-numbers td,#provenance-table td{text-align:left}#key-numbers td{white-space:normal}#provenance-table td+td{white-space:normal;overflow-wrap:anywhere}
 figure{margin:.5rem 0}figure svg{max-width:100%;height:auto}figcaption{font-size:.88rem;color:#555}
 .charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:.5rem}

@@ -39,8 +39,9 @@ std::string rotational_table(const Subject& s, std::size_t arm) {
   for (const Modes& p : points) count = std::max(count, arm < p.arms.size() ? p.arms[arm].damped.size() : 0);
   if (count == 0) return "";
   Row header = header_of("mode", points);
-  header.push_back("damping ratio");
-  header.push_back("who moves");
+  const std::string last = points.size() > 1 ? " in " + points.back().range.name : "";
+  header.push_back("damping ratio" + last);
+  header.push_back("who moves" + last);
   std::vector<Row> rows;
   for (std::size_t k = 0; k < count; ++k) {
     Row row{std::to_string(k + 1)};

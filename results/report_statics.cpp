@@ -50,7 +50,7 @@ std::string tension_table(const Ranges& ranges) {
     rows.push_back(row_of(ranges.front()->spans[i].name, ranges, [&](const QuasiStaticRange& r) {
       return band(r.spans[i].tension, r.spans[i].tension_low, r.spans[i].tension_high);
     }));
-  rows.push_back(row_of("of it centrifugal", ranges, [](const auto& r) { return html_number(r.centrifugal); }));
+  rows.push_back(row_of("centrifugal part of each", ranges, [](const auto& r) { return html_number(r.centrifugal); }));
   if (ranges.front()->arm_angle)
     rows.push_back(row_of("arm angle, deg", ranges, [](const auto& r) {
       const double low = r.arm_angle_low.value_or(*r.arm_angle) * degree,
@@ -58,7 +58,11 @@ std::string tension_table(const Ranges& ranges) {
       return high - low > 0.05 ? fmt::format("{:.1f} ({:.1f}\u00a0to\u00a0{:.1f})", angle, low, high)
                                : html_number(angle, 1);
     }));
-  rows.push_back(row_of("losses, W", ranges, [](const auto& r) { return html_number(r.loss); }));
+  rows.push_back(row_of("belt speed, m/s", ranges, [](const auto& r) { return html_number(r.belt_speed, 1); }));
+  rows.push_back(row_of("put in by the driver, W", ranges, [](const auto& r) { return html_number(r.driver_power); }));
+  rows.push_back(
+      row_of("put in by torque tables, W", ranges, [](const auto& r) { return html_number(r.table_power); }));
+  rows.push_back(row_of("lost, W", ranges, [](const auto& r) { return html_number(r.loss); }));
   return "<h3>Span tensions, N</h3>\n" + html_table("statics-tensions", header_of("span", ranges), rows);
 }
 
@@ -93,6 +97,15 @@ std::string slip_table(const Ranges& ranges) {
          html_table("statics-slip-safety", header_of("pulley", ranges), rows);
 }
 
+std::string estimate_words(const DriveStatics& statics) {
+  if (statics.ranges.empty()) return "";
+  if (statics.estimate.error) return "<p>No life is estimated: " + html_escaped(*statics.estimate.error) + ".</p>\n";
+  return fmt::format(
+      "<p id=\"statics-life\">From these steady tensions alone the life over the duty cycle is estimated at {} h: "
+      "without vibration, good to rank drives before any is simulated.</p>\n",
+      html_rounded(statics.estimate.life_h, 2));
+}
+
 }  // namespace
 
 std::string statics_section(const Subject& s) {
@@ -100,7 +113,9 @@ std::string statics_section(const Subject& s) {
   const DriveStatics& statics = *s.file.statics;
   std::string html =
       "<section id=\"statics\"><h2>Statics</h2>\n<p>The drive before any time step: steady running at the mean speed, "
-      "without ripple and vibration. In brackets, between the friction limits of the tensioner's arm.</p>\n";
+      "without ripple and vibration.";
+  html += s.model.tensioner.pulley >= 0 ? " In brackets, between the friction limits of the tensioner's arm.</p>\n"
+                                        : "</p>\n";
   Ranges solved;
   for (const QuasiStaticRange& r : statics.ranges)
     if (!r.error) solved.push_back(&r);
@@ -109,6 +124,7 @@ std::string statics_section(const Subject& s) {
     if (r.error) html += "<p>" + html_escaped(r.name + ": no quasi-static solution: " + *r.error) + ".</p>\n";
   for (const QuasiStaticRange& r : statics.ranges)
     for (const std::string& words : r.remarks) html += "<p>" + html_escaped(r.name + ": " + words) + ".</p>\n";
+  html += estimate_words(statics);
   html += take_up_table(statics.take_up);
   return html + "</section>\n";
 }

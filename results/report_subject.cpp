@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "results/loaded_scene.h"
 #include "sim/life/loads.h"
 #include "sim/scene/scene_io.h"
 
@@ -36,6 +37,15 @@ Governing governing(const Life& life) {
   return g;
 }
 
+const Subject::Range* shown_range(const Subject& s) {
+  if (s.ranges.empty()) return nullptr;
+  if (s.life && !s.life->error)
+    if (const RangeLife* worst = governing(*s.life).range)
+      for (const auto& range : s.ranges)
+        if (range.window->range == worst->name) return &range;
+  return &s.ranges.front();
+}
+
 bool slips(const QuasiStaticPulley& p) {
   constexpr double rounding = 1e-6;  // a locked pulley slides at exactly 1
   return p.slip_safety && *p.slip_safety < 1 - rounding;
@@ -43,6 +53,10 @@ bool slips(const QuasiStaticPulley& p) {
 
 std::vector<std::string> warnings(const Subject& s) {
   std::vector<std::string> out;
+  if (std::string words = coarse_mesh(s.model); !words.empty()) {
+    words[0] = 'E';
+    out.push_back(words + ".");
+  }
   for (const RunRecord& run : s.file.runs) {
     if (!run.status.ok())
       out.push_back(fmt::format("A run ended early: {} at {:.4f} s, {}; likely cause: {}; try: {}.",
@@ -60,6 +74,10 @@ std::vector<std::string> warnings(const Subject& s) {
     if (std::abs(range.summary.energy_residual) > 0.005)
       out.push_back(fmt::format("{}: {:.2f} % of the energy that went through is not accounted for.",
                                 range.window->range, 100 * range.summary.energy_residual));
+    if (const ArmStops& stops = s.model.tensioner.stops;
+        range.summary.arm_angle_mean && stops.any() &&
+        (*range.summary.arm_angle_min < stops.low || *range.summary.arm_angle_max > stops.high))
+      out.push_back(fmt::format("{}: the tensioner's arm strikes a stop.", range.window->range));
     for (const PulleySummary& p : range.summary.pulleys)
       if (p.slip_percent && std::abs(*p.slip_percent) > 3)
         out.push_back(fmt::format("{}: {} slips by {:.1f} % against the driven pulley.", range.window->range, p.name,
@@ -68,13 +86,21 @@ std::vector<std::string> warnings(const Subject& s) {
   if (s.file.statics)
     for (const QuasiStaticRange& range : s.file.statics->ranges) {
       if (range.error) out.push_back(fmt::format("{}: no quasi-static solution: {}.", range.name, *range.error));
+      if (range.arm_angle && s.model.tensioner.stops.any() &&
+          s.model.tensioner.stops.at(*range.arm_angle, s.model.tensioner.lengthening) != ArmStop::none)
+        out.push_back(fmt::format("{}: by the statics the tensioner's arm rests on a stop.", range.name));
       for (const QuasiStaticPulley& p : range.pulleys)
         if (slips(p))
           out.push_back(fmt::format(
               "{}: {} needs more wrap or tension: by its quasi-static slip safety of {:.2f} the belt slips.",
               range.name, p.name, *p.slip_safety));
     }
-  if (s.life && s.life->error) out.push_back("No life: " + *s.life->error + ".");
+  if (s.life && s.life->error) {
+    const auto before = out.size();
+    for (const RangeLife& range : s.life->ranges)
+      if (range.error) out.push_back("No life: " + *range.error + ".");
+    if (out.size() == before) out.push_back("No life: " + *s.life->error + ".");
+  }
   return out;
 }
 

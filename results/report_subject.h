@@ -38,6 +38,9 @@ struct Governing {
 };
 Governing governing(const Life& life);
 
+/// The range that a page shows first: the one that does most of the damage, else the first; null if none was evaluated.
+const Subject::Range* shown_range(const Subject& subject);
+
 /// Of what the life is: of the duty cycle only if the file holds all its ranges.
 std::string life_over(const Subject& subject);
 

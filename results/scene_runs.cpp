@@ -29,10 +29,23 @@ double seconds_of(const std::vector<RunPlan>& plans) {
   return std::accumulate(plans.begin(), plans.end(), 0.0, [](double sum, const RunPlan& p) { return sum + p.end_s; });
 }
 
+void refuse_long_step(const LoadedScene& l) {
+  const StepLimit limit = step_limits(l.model, l.file.scene.solver.scheme).front();
+  const double step = run_step(l.model);
+  if (step <= limit.limit_s * (1 + 1e-9)) return;
+  throw located(
+      l.file,
+      BadInput({Problem{l.file.path.string(), 0, "solver.step_s",
+                        fmt::format("{:.3g} s is longer than the limit of {} ({:.3g} s) with the scheme {}", step,
+                                    limit.name, limit.limit_s, enum_name(l.file.scene.solver.scheme)),
+                        fmt::format("at most {:.3g}, none for the predicted step, or --force", limit.limit_s)}}));
+}
+
 }  // namespace
 
 std::vector<RunOutcome> run_all(const LoadedScene& l, const std::vector<RunPlan>& plans, const CommandOptions& o,
                                 double& wall_s) {
+  if (!o.force) refuse_long_step(l);
   if (l.measured) warn_of_speed(plans, l.file.scene);
   Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
   const auto start = std::chrono::steady_clock::now();
@@ -117,6 +130,11 @@ std::vector<RangeSummary> summaries_of(const LoadedScene& l, const std::vector<R
     for (const WindowRecord& window : run.windows) {
       if (window.last_sample <= window.first_sample) continue;
       summaries.push_back(summarise(l.model, run, window));
+      if (std::abs(summaries.back().energy_residual) > 0.02)
+        fmt::print(stderr,
+                   "{}: {:.1f} % of the energy that went through is not accounted for: the step is too long for this "
+                   "drive; set a shorter solver.step_s\n",
+                   window.range, 100 * std::abs(summaries.back().energy_residual));
       if (summaries.back().drift > 0.03)
         fmt::print(stderr,
                    "{}: not settled: a span's mean tension changes by {:.0f} % within the window; try a longer "

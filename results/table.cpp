@@ -1,6 +1,8 @@
 // Owns the layout of plain-text tables.
 #include "results/table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -23,6 +25,12 @@ bool is_number(std::string_view cell) {
 }
 
 }  // namespace
+
+std::string fixed_text(double value, int digits) {
+  std::string text = fmt::format("{:.{}f}", value, digits);
+  if (text.find_first_not_of("-0.") == text.npos && text[0] == '-') text.erase(0, 1);
+  return text;
+}
 
 Table::Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
 

@@ -18,4 +18,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// Fixed digits, and no sign on a number that rounds to zero.
+std::string fixed_text(double value, int digits);
+
 }  // namespace beltlife

@@ -84,7 +84,8 @@ void Recorder::observe(const DriveView& s, bool sample) {
   const double largest = trackers_[next_]->observe(s.state(), s.work(), sample);
   double friction = 0;
   for (double mu : model_.pulley_friction) friction = std::max(friction, mu);
-  if (s.step() * (axial_damping_rate(model_) + friction_damping_rate(model_, friction, largest)) > 2)
+  const bool explicit_scheme = model_.scene.solver.scheme != Scheme::linearly_implicit;
+  if (explicit_scheme && s.step() * (axial_damping_rate(model_) + friction_damping_rate(model_, friction, largest)) > 2)
     record_.friction_overdamped_s += elapsed;
   if (s.time() - last_history_ >= history_s - 0.5 * s.step()) {
     last_history_ = s.time();

@@ -24,6 +24,13 @@ double run_step(const Model& model) {
   return 1 / (solver.sample_rate_hz * std::ceil(1 / (solver.sample_rate_hz * wanted) - 1e-9));
 }
 
+std::vector<std::string> kernel_names(const Model& model) {
+  if (model.scene.solver.scheme == Scheme::linearly_implicit) return LaneSimulator::kernel_names(model);
+  std::vector<std::string> names;
+  for (const Kernel& k : force_program(model)) names.push_back(k.name);
+  return names;
+}
+
 RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& options) {
   if (model.scene.solver.scheme == Scheme::linearly_implicit)
     return std::move(run_pack({{&model, &plan}}, LaneUse::arcs, options).front());

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "sim/model.h"
 #include "sim/plan.h"
@@ -29,6 +31,9 @@ struct RunOutcome {
 /// The step that a run of this model takes: the scene's, or the predicted stable one, shortened so that a whole number
 /// of steps makes one sampling interval.
 double run_step(const Model& model);
+
+/// Names of what a step of this model goes through under its scheme, in order.
+std::vector<std::string> kernel_names(const Model& model);
 
 RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& options = {});
 

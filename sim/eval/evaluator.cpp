@@ -32,6 +32,9 @@ std::string pack_key(const Task& t) {
                                 run_step(m), m.scene.solver.sample_rate_hz, t.plan.end_s, m.pulleys, m.bodies,
                                 m.tensioner.pulley, m.driver.body, t.plan.name);
   for (const Kernel& k : force_program(m)) key += fmt::format(" {}", k.name);
+  // Early end reads all records of a pack by the names of its first drive.
+  for (const std::string& name : m.body_name) key += " " + name;
+  if (m.scene.output) key += " " + m.scene.output->body;
   return key;
 }
 
@@ -98,7 +101,8 @@ void finish(const SceneSpec& scene, const std::vector<std::string>& names, Point
   std::vector<RangeLoad> loads;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const RangeResult& r = *point.ranges[i];
-    for (Quantity& q : quantities_of(r.summary)) point.quantities.push_back(std::move(q));
+    if (!r.summary.name.empty())  // else it failed before its window
+      for (Quantity& q : quantities_of(r.summary)) point.quantities.push_back(std::move(q));
     RangeLoad load = r.load;
     load.name = names[i];
     for (const RangeSpec& range : scene.range)
@@ -128,9 +132,11 @@ std::string simulation_key(const SceneSpec& scene, const std::string& range) {
   SceneSpec seen = scene;
   seen.title.clear();
   seen.fatigue = {};
-  std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
+  // The predicted step of the explicit schemes looks at the fastest range.
+  if (scene.solver.step_s || scene.solver.scheme == Scheme::linearly_implicit)
+    std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
   for (RangeSpec& r : seen.range) r.duty_share = 0;
-  return write_scene(seen);
+  return range + "\n" + write_scene(seen);
 }
 
 std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
@@ -142,15 +148,20 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   std::unordered_map<std::string, std::size_t> pending;  // key -> task
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::shared_ptr<const Model> model;
+    std::vector<RunPlan> plans;
     try {
       model = std::make_shared<const Model>(compile(points[i]));
+      plans = plans_of(points[i], options_.ranges, options_.measured);
     } catch (const BadInput& bad) {
       results[i].problems = bad.problems();
       continue;
     }
-    for (const RunPlan& plan : plans_of(points[i], options_.ranges, options_.measured)) {
+    for (const RunPlan& plan : plans) {
       names[i].push_back(plan.name);
       keys[i].push_back(simulation_key(points[i], plan.name));
+      if (options_.measured)  // which stretch of it is played
+        for (std::size_t r = 0; r < points[i].range.size() && points[i].range[r].name != plan.name; ++r)
+          keys[i].back() += "# behind another range\n";
       const std::string& key = keys[i].back();
       if (memo_.contains(key)) {
         ++reused_;

@@ -52,6 +52,7 @@ double largest_change(const RangeSummary& before, const RangeSummary& after) {
       change = std::max(change, std::abs(*after.pulleys[i].slip_percent - *before.pulleys[i].slip_percent));
   if (after.output && before.output)
     change = std::max({change, relative(before.output->speed_rpm_mean, after.output->speed_rpm_mean),
+                       relative(before.output->torque_n_m_mean, after.output->torque_n_m_mean),
                        order_change(*before.output, *after.output)});
   return change;
 }

@@ -21,7 +21,9 @@ ImplicitTrain::ImplicitTrain(const Model& m, const SpeedProfile& profile, double
       step_(step),
       substeps_(std::max(1, static_cast<int>(std::ceil(step / longest_substep - 1e-9)))),
       change_(m.bodies, 0.0),
-      torque_(m.bodies, 0.0) {
+      torque_(m.bodies, 0.0),
+      rhs_(m.bodies, 0.0),
+      solved_(m.bodies, 0.0) {
   substep_ = step / substeps_;
   std::vector<int> group(m.bodies);
   std::iota(group.begin(), group.end(), 0);
@@ -96,7 +98,7 @@ void ImplicitTrain::advance_group(BodyGroup& g, State& state, double time, const
   Coordinates& q = state.q;
   const int n = static_cast<int>(g.bodies.size());
   const double s = substep_;
-  double change[64], rhs[64];
+  double *change = solved_.data(), *rhs = rhs_.data();
   for (int sub = 0; sub < substeps_; ++sub) {
     for (int b : g.bodies) torque_[b] = b < m.pulleys ? belt_torque[b] : 0.0;
     std::uint64_t status = 0;

@@ -45,6 +45,7 @@ class ImplicitTrain {
   double given_ = 0;  ///< speed of the driven body at t_n + h/2, rad/s
   std::vector<BodyGroup> groups_;
   std::vector<double> change_, torque_;
+  std::vector<double> rhs_, solved_;   ///< of a group, while it is solved
   std::vector<double> damping_share_;  ///< of each spring: 1/2, or 1 where its damper is faster than a substep
 };
 

@@ -11,14 +11,10 @@ namespace {
 
 // The left interface's part in row j dies out as r^j, r + 1/r = 2 + m/k_a. What is left at the last row kept, 1e-4 of
 // a correction that is itself small, changes no quantity above its noise.
-int rows_of_fill(const LaneBelt& b) {
-  int most = 0;
-  for (int k = 0; k < lanes; ++k) {
-    const double half = 0.5 * b.mass[k] / b.axial_tangent[k];
-    const double decay = std::acosh(1 + half);
-    most = std::max(most, static_cast<int>(std::ceil(9.2 / decay)));
-  }
-  return std::clamp(most, 4, b.rows - 2);
+int rows_of_fill(const LaneBelt& b, int lane) {
+  const double half = 0.5 * b.mass[lane] / b.axial_tangent[lane];
+  const double decay = std::acosh(1 + half);
+  return std::min(std::max(static_cast<int>(std::ceil(9.2 / decay)), 4), b.rows - 2);
 }
 
 }  // namespace
@@ -94,7 +90,7 @@ LaneBelt make_lane_belt(const std::vector<const Model*>& drives, LaneUse use, do
     *a = LaneArray(b.rows);
   for (auto& a : b.next) a = LaneArray(b.rows);
   for (auto& a : b.after) a = LaneArray(b.rows);
-  b.fill_rows = rows_of_fill(b);
+  for (int k = 0; k < lanes; ++k) b.fill_rows[k] = rows_of_fill(b, k);
   for (auto& a : b.left) a = LaneArray(b.rows);
   return b;
 }

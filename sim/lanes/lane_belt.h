@@ -64,7 +64,8 @@ struct LaneBelt {
   // Factors: of node j the inverse of its pivot, the products with what follows, and with the left interface.
   LaneArray inverse00, inverse01, inverse11, rhs_x, rhs_y;
   LaneArray next[4], after[4], left[8];
-  int fill_rows = 0;  ///< rows beyond which the left interface is not felt
+  int fill_rows[lanes] =
+      {};  ///< rows beyond which the left interface is not felt; each lane's own, whatever its mates'
 
   std::vector<ContactBlock> blocks;
 };

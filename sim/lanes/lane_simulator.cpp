@@ -2,6 +2,7 @@
 #include "sim/lanes/lane_simulator.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace beltlife {
@@ -82,6 +83,7 @@ LaneSimulator::LaneSimulator(const std::vector<LaneDrive>& drives, LaneUse use, 
       belt_.vy.row(j)[k] = s.q.vy[i];
     }
   }
+  parts_ = parts_of(*models.front());
   near_.assign(static_cast<std::size_t>(belt_.rows) * lanes, -1);
   const int pulleys = models.front()->pulleys;
   for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_, &radii_}) v->resize(pulleys);
@@ -163,23 +165,32 @@ void LaneSimulator::place_pulleys() {
   placed_ = true;
 }
 
-void LaneSimulator::advance() {
-  const double now = time();
-  const int pulleys = drives_.front()->model->pulleys;
-  for (auto& d : drives_) d->train.expect(d->state, now);
-  place_pulleys();
-  if (pulleys > 0 && step_count_ >= next_search_) {
-    search();
-    next_search_ = step_count_ + search_steps_;
-  }
-  fill_lane_ghosts(belt_);
-  lane_elements(belt_);
+void LaneSimulator::expect() {
+  for (auto& d : drives_) d->train.expect(d->state, time());
+}
+
+void LaneSimulator::search_when_due() {
+  if (!search_due()) return;
+  search();
+  next_search_ = step_count_ + search_steps_;
+}
+
+void LaneSimulator::ghosts() { fill_lane_ghosts(belt_); }
+
+void LaneSimulator::elements() { lane_elements(belt_); }
+
+void LaneSimulator::contact() {
   LanePulleys pulley;
   for (const ContactBlock& b : belt_.blocks) {
     gather(b, pulley);
     lane_contact(belt_, b.begin, b.end, pulley);
   }
-  lane_solve(belt_);
+}
+
+void LaneSimulator::solve() { lane_solve(belt_); }
+
+// Sums go on from block to block in each lane by itself, so that they do not depend on where mates end their blocks.
+void LaneSimulator::reactions() {
   for (LaneLoads& l : loads_) l = {};
   for (const ContactBlock& b : belt_.blocks) {
     LaneLoads loads;
@@ -197,7 +208,12 @@ void LaneSimulator::advance() {
         loads_[p].moment[k] = loads.moment[k];
       }
   }
-  lane_advance(belt_);
+}
+
+void LaneSimulator::motion() { lane_advance(belt_); }
+
+void LaneSimulator::bodies() {
+  const int pulleys = drives_.front()->model->pulleys;
   for (int i = 0; i < drives(); ++i) {
     Drive& d = *drives_[i];
     for (int p = 0; p < pulleys; ++p) {
@@ -213,7 +229,56 @@ void LaneSimulator::advance() {
       d.hub_y[p] = y;
       d.belt_torque[p] = moment;
     }
-    d.train.advance(d.state, now, d.belt_torque.data(), d.hub_x.data(), d.hub_y.data());
+    d.train.advance(d.state, time(), d.belt_torque.data(), d.hub_x.data(), d.hub_y.data());
+  }
+}
+
+std::vector<LaneSimulator::Part> LaneSimulator::parts_of(const Model& m) {
+  const bool bending = m.belt.bending_damping > 0 || m.belt.bending_stiffness > 0, pulleys = m.pulleys > 0;
+  std::vector<Part> list;
+  if (m.bodies > 0) list.push_back({"expected speeds", &LaneSimulator::expect});
+  if (pulleys) list.push_back({"pulley centres", &LaneSimulator::place_pulleys});
+  if (pulleys) list.push_back({"contact search", &LaneSimulator::search_when_due});
+  list.push_back({"belt ghosts", &LaneSimulator::ghosts});
+  list.push_back({bending ? "belt elements, axial and bending" : "belt elements, axial", &LaneSimulator::elements});
+  if (pulleys) list.push_back({"contact", &LaneSimulator::contact});
+  list.push_back({bending ? "belt solve, axial and bending" : "belt solve, axial", &LaneSimulator::solve});
+  if (pulleys) list.push_back({"contact reactions", &LaneSimulator::reactions});
+  list.push_back({"belt motion", &LaneSimulator::motion});
+  if (m.bodies > 0) list.push_back({"bodies", &LaneSimulator::bodies});
+  return list;
+}
+
+std::vector<std::string> LaneSimulator::kernel_names(const Model& m) {
+  std::vector<std::string> names;
+  for (const Part& part : parts_of(m)) names.push_back(part.name);
+  // What the bodies' part goes through, under the names of the explicit schemes' kernels.
+  bool bodies = false;
+  for (const Kernel& k : force_program(m)) {
+    if (bodies && k.apply != &beltlife::contact) names.push_back(k.name);
+    bodies = bodies || k.apply == &clear_torques;
+  }
+  return names;
+}
+
+void LaneSimulator::profile_kernels(bool on) {
+  timing_ = on;
+  times_.clear();
+  for (const Part& part : parts_) times_.push_back({part.name, 0, 0});
+}
+
+void LaneSimulator::advance() {
+  if (!timing_) {
+    for (const Part& part : parts_) (this->*part.run)();
+  } else {
+    auto last = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      (this->*parts_[i].run)();
+      const auto now = std::chrono::steady_clock::now();
+      times_[i].seconds += std::chrono::duration<double>(now - last).count();
+      ++times_[i].calls;
+      last = now;
+    }
   }
   ++step_count_;
 }

@@ -30,6 +30,11 @@ class LaneSimulator {
   /// The drive at time() - h/2, where positions and velocities are known together: brings state and work up to date.
   /// Forces come from the same kernels as the explicit schemes'.
   DriveView observe(int drive);
+  /// What a step of this drive goes through, in order; a feature that the drive does not have is not there.
+  static std::vector<std::string> kernel_names(const Model& model);
+  void profile_kernels(bool on);
+  const std::vector<KernelTime>& kernel_times() const { return times_; }
+
   /// Whether the next step begins with a search for contacts: until then every node keeps its candidate pulley.
   bool search_due() const { return step_count_ >= next_search_; }
 
@@ -46,13 +51,31 @@ class LaneSimulator {
   };
 
   const Drive& drive_of(int lane) const { return *drives_[belt_.use == LaneUse::drives && lane < drives() ? lane : 0]; }
+  struct Part {
+    const char* name;
+    void (LaneSimulator::*run)();
+  };
+  static std::vector<Part> parts_of(const Model& model);
+
+  void expect();
   void place_pulleys();
+  void search_when_due();
+  void ghosts();
+  void elements();
+  void contact();
+  void solve();
+  void reactions();
+  void motion();
+  void bodies();
   void search();
   void gather(const ContactBlock& block, LanePulleys& p) const;
 
   double step_;
   std::int64_t step_count_ = 0, next_search_ = 0, search_steps_ = 1;
   LaneBelt belt_;
+  std::vector<Part> parts_;
+  bool timing_ = false;
+  std::vector<KernelTime> times_;
   std::vector<std::unique_ptr<Drive>> drives_;
   std::vector<int> near_;             // candidate pulley of each row and lane, -1: none
   std::vector<double> gaps_, found_;  // the same, while searching

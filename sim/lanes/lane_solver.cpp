@@ -5,6 +5,7 @@
 // same two). Elimination runs from the left, so only the left interface fills in, and that dies out after fill_rows.
 // The interfaces of a lane are then a 4 x 4 system of their own, unless the belt is so stiff or damped that an arc's
 // two interfaces still feel each other; then they are solved together.
+#include <algorithm>
 #include <cmath>
 
 #include "sim/kernels/kernel.h"
@@ -219,13 +220,24 @@ template <bool Bending>
   }
 }
 
+// Ends the left interface's part in the lanes where it is no longer felt from row j on, so that no lane depends on how
+// far another one's reaches.
+inline void end_fill(int j, const int (&fill)[lanes], Carry& c) {
+  for (int k = 0; k < lanes; ++k) {
+    if (fill[k] != j) continue;
+    for (int s = 0; s < 8; ++s) c.left[s][k] = c.left_after[s][k] = 0;
+  }
+}
+
 // Forward over all rows; what remains are the interface's rows: d, u of row rows-2 and d of row rows-1.
 template <bool Bending>
-[[gnu::always_inline]] inline void forward(int rows, int fill, double h, const Elements& e, const Factors& f, Carry& c,
-                                           LaneNumber (&interface)[10], LaneNumber (&rhs)[4]) {
+[[gnu::always_inline]] inline void forward(int rows, const int (&fill_of)[lanes], int fill, double h, const Elements& e,
+                                           const Factors& f, Carry& c, LaneNumber (&interface)[10],
+                                           LaneNumber (&rhs)[4]) {
   LaneNumber d[3], u[4], v[4], r[2];
   first_fill<Bending>(e, c);
   for (int j = 0; j < fill; ++j) {
+    end_fill(j, fill_of, c);
     row_blocks<Bending>(j, h, e, c, d, u, v, r);
     eliminate<Bending, true>(j, d, u, v, r, c, f);
   }
@@ -301,20 +313,25 @@ template <bool Bending, bool Fill>
 }
 
 template <bool Bending>
-[[gnu::always_inline]] inline void solve(LaneUse use, int rows, int fill, double h, const Elements& e, const Factors& f,
-                                         double* dvx, double* dvy) {
+[[gnu::always_inline]] inline void solve(LaneUse use, int rows, const int (&fill_of)[lanes], double h,
+                                         const Elements& e, const Factors& f, double* dvx, double* dvy) {
+  const int fill = *std::max_element(fill_of, fill_of + lanes);
   Carry c{};
   LaneNumber interface[10], x[4], left[4];
-  forward<Bending>(rows, fill, h, e, f, c, interface, x);
+  forward<Bending>(rows, fill_of, fill, h, e, f, c, interface, x);
   for (int k = 0; k < lanes; ++k) {
     const int right = use == LaneUse::arcs ? (k + 1) % lanes : k;
     for (int s = 0; s < 10; ++s) interface[s][k] -= c.interface[s][right];
     for (int s = 0; s < 4; ++s) x[s][k] -= c.interface_rhs[s][right];
   }
-  if (fill < rows - 2)
-    solve4(interface, x);
-  else
-    solve_coupled_interfaces(use, interface, c.left, c.left_after, x);
+  LaneNumber coupled[4] = {x[0], x[1], x[2], x[3]};
+  solve4(interface, x);
+  if (fill == rows - 2) {
+    solve_coupled_interfaces(use, interface, c.left, c.left_after, coupled);
+    for (int k = 0; k < lanes; ++k)
+      if (fill_of[k] == rows - 2)
+        for (int s = 0; s < 4; ++s) x[s][k] = coupled[s][k];
+  }
   for (int k = 0; k < lanes; ++k) {
     const int from = use == LaneUse::arcs ? (k + lanes - 1) % lanes : k;
     for (int s = 0; s < 4; ++s) left[s][k] = x[s][from];
@@ -327,13 +344,13 @@ template <bool Bending>
   for (int j = fill - 1; j >= 0; --j) back<Bending, true>(j, left, f, dvx, dvy);
 }
 
-BELTLIFE_VECTOR void solve_axial(LaneUse use, int rows, int fill, double h, const Elements& e, const Factors& f,
-                                 double* dvx, double* dvy) {
+BELTLIFE_VECTOR void solve_axial(LaneUse use, int rows, const int (&fill)[lanes], double h, const Elements& e,
+                                 const Factors& f, double* dvx, double* dvy) {
   solve<false>(use, rows, fill, h, e, f, dvx, dvy);
 }
 
-BELTLIFE_VECTOR void solve_bending(LaneUse use, int rows, int fill, double h, const Elements& e, const Factors& f,
-                                   double* dvx, double* dvy) {
+BELTLIFE_VECTOR void solve_bending(LaneUse use, int rows, const int (&fill)[lanes], double h, const Elements& e,
+                                   const Factors& f, double* dvx, double* dvy) {
   solve<true>(use, rows, fill, h, e, f, dvx, dvy);
 }
 

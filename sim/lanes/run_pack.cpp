@@ -25,6 +25,7 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
   std::vector<LaneDrive> drives;
   for (const PackMember& m : members) drives.push_back({m.model, &m.plan->profile});
   LaneSimulator s(drives, use, h);
+  s.profile_kernels(options.profile_kernels);
 
   std::vector<RunOutcome> out(members.size());
   std::vector<std::unique_ptr<Recorder>> recorders;
@@ -47,10 +48,12 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
   std::int64_t next_sample = per_sample, next_check = per_check;
   while (left > 0 && s.steps() < end) {
     s.advance();
-    const bool sample = s.steps() == next_sample || s.steps() == end, check = sample || s.steps() >= next_check;
-    if (!check && !s.search_due()) continue;
+    const bool sample_all = s.steps() == next_sample, check_all = sample_all || s.steps() >= next_check;
+    const bool ends = std::find(last.begin(), last.end(), s.steps()) != last.end();
+    if (!check_all && !ends && !s.search_due()) continue;
     for (std::size_t i = 0; i < members.size(); ++i) {
-      if (!running(i) || (!check && !recorders[i]->open())) continue;
+      const bool sample = sample_all || s.steps() == last[i], check = check_all || s.steps() == last[i];
+      if (!running(i) || (!check && !(recorders[i]->open() && (check_all || s.search_due())))) continue;
       const DriveView view = s.observe(static_cast<int>(i));
       if (recorders[i]->open()) {
         recorders[i]->searched(view);
@@ -71,13 +74,14 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
         --left;
       }
     }
-    if (check) next_check = s.steps() + per_check;
-    if (!sample) continue;
+    if (check_all) next_check = s.steps() + per_check;
+    if (!sample_all) continue;
     next_sample += per_sample;
     if (options.progress) options.progress(s.time());
   }
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (RunOutcome& o : out) o.record.wall_s = wall / static_cast<double>(members.size());
+  out.front().kernel_times = s.kernel_times();
   return out;
 }
 

@@ -359,14 +359,15 @@ struct FatigueSpec {
 };
 
 struct SolverSpec {
-  Scheme scheme = Scheme::symplectic_euler;
+  Scheme scheme = Scheme::linearly_implicit;
   std::optional<double> step_s;
   double sample_rate_hz = 1000;
 
   template <class V>
   void visit(V& v) {
-    v("scheme", scheme, any_text, "time integrator");
-    v("step_s", step_s, above(0, 1e-2), "time step; absent: the predicted stable step");
+    v("scheme", scheme, any_text, "time integrator; linearly_implicit needs a multiple of 8 elements");
+    v("step_s", step_s, above(0, 1e-2),
+      "time step; absent: the step predicted for this scheme (stability, or accuracy of linearly_implicit)");
     v("sample_rate_hz", sample_rate_hz, above(0, 1e5),
       "rate of the recorded channels and of the sampled contact forces");
   }

@@ -222,7 +222,20 @@ class SceneCheck {
     }
   }
 
+  /// The linearly implicit scheme cuts the belt into eight equal arcs.
+  void check_lanes() {
+    constexpr int arcs = 8, least = 48;
+    const int n = scene_.belt.elements;
+    if (scene_.solver.scheme != Scheme::linearly_implicit || (n % arcs == 0 && n >= least)) return;
+    const int below = std::max(n / arcs * arcs, least), above = std::max((n / arcs + 1) * arcs, least);
+    complain(SpecPath{}.child("belt").child("elements"),
+             fmt::format("the scheme linearly_implicit takes a multiple of {}, at least {}, not {}", arcs, least, n),
+             below == above ? fmt::format("{}, or another solver.scheme", below)
+                            : fmt::format("{} or {}, or another solver.scheme", below, above));
+  }
+
   void check_belt() {
+    check_lanes();
     const SpecPath belt = SpecPath{}.child("belt");
     const SpecPath length = belt.child("unstretched_length_mm");
     const SpecPath effective = belt.child("effective_length_mm");

@@ -11,7 +11,7 @@ nlohmann::json life(const Arguments& arguments) {
 }
 
 TEST(Life, StatesStressesAndLivesByRangeAndPulley) {
-  const auto j = life(Arguments{scene("accessory_drive"), "--range", "motorway", "--range", "full_load"} + brief(164));
+  const auto j = life(Arguments{scene("accessory_drive"), "--range", "motorway", "--range", "full_load"} + brief(168));
   expect_keys(j, {"life_h", "log10_life_h", "ranges"});
   EXPECT_NEAR(j["log10_life_h"], std::log10(j["life_h"].get<double>()), 1e-12);
   ASSERT_EQ(j["ranges"].size(), 2u);

@@ -92,7 +92,7 @@ TEST_F(InFolder, TheSameBytesComeFromOneThreadAndFromTwo) {
        {Arguments{"simulate", scene("two_pulley"), "--each-range"}, Arguments{"life", scene("two_pulley")},
         Arguments{"life", scene("accessory_drive"), "--range", "town", "--range", "full_load"}}) {
     const Arguments all =
-        command + brief(82) + Arguments{"--json", "--set", "profile.hold_s=0.15", "--set", "profile.ramp_s=0.05"};
+        command + brief(80) + Arguments{"--json", "--set", "profile.hold_s=0.15", "--set", "profile.ramp_s=0.05"};
     const Answer one = run(all + Arguments{"--threads", "1", "--out", "one.h5"});
     const Answer two = run(all + Arguments{"--threads", "2", "--out", "two.h5"});
     ASSERT_EQ(one.code, 0) << one.err;
@@ -129,7 +129,7 @@ TEST_F(InFolder, ARunLeavesItsResultFileAndNothingElse) {
 
 TEST_F(InFolder, EveryNameInTheFileOfARealDriveIsDocumentedAndEveryDocumentedNameIsThere) {
   const Answer answer = run(Arguments{"life", scene("accessory_drive"), "--range", "town", "--out", "r.h5"} +
-                            brief(82) + Arguments{"--set", "profile.hold_s=0.15"});
+                            brief(80) + Arguments{"--set", "profile.hold_s=0.15"});
   ASSERT_EQ(answer.code, 0) << answer.err;
   const auto documented = documented_units();
   std::map<std::string, std::string> written;
@@ -176,8 +176,9 @@ void expect_explained(const Answer& answer) {
 }
 
 TEST_F(InFolder, ADivergingRunSaysWhenWhereAndWhyAndKeepsWhatItHas) {
-  const Answer answer =
-      run(Arguments{"simulate", scene("two_pulley"), "--step", "1e-4", "--json", "--out", "failed.h5"} + brief(88));
+  const Answer answer = run(Arguments{"simulate", scene("two_pulley"), "--scheme", "symplectic_euler", "--step", "1e-4",
+                                      "--force", "--json", "--out", "failed.h5"} +
+                            brief(88));
   expect_explained(answer);
   const auto j = answer.json();
   ASSERT_FALSE(j.is_discarded()) << answer.out;
@@ -214,8 +215,9 @@ TEST_F(InFolder, ARunThatFailsInsideAWindowKeepsThePartBefore) {
 }
 
 TEST_F(InFolder, ALifeWithoutARunThatWorkedIsNoNumber) {
-  const Answer answer =
-      run(Arguments{"life", scene("two_pulley"), "--step", "1e-4", "--json", "--out", "failed.h5"} + brief(88));
+  const Answer answer = run(Arguments{"life", scene("two_pulley"), "--scheme", "symplectic_euler", "--step", "1e-4",
+                                      "--force", "--json", "--out", "failed.h5"} +
+                            brief(88));
   expect_explained(answer);
   const auto j = answer.json();
   ASSERT_FALSE(j.is_discarded()) << answer.out;

@@ -68,7 +68,7 @@ TEST(Simulate, RunsEachRangeByItself) {
 }
 
 TEST(Simulate, RunsADriveWithATensionerThroughItsProfile) {
-  const auto j = simulated(Arguments{scene("accessory_drive")} + brief(164) +
+  const auto j = simulated(Arguments{scene("accessory_drive")} + brief(168) +
                            Arguments{"--set", "profile.hold_s=0.1", "--set", "profile.evaluate_s=0.05"});
   ASSERT_EQ(j["ranges"].size(), 4u);
   for (const auto& range : j["ranges"]) {
@@ -92,13 +92,11 @@ TEST(Simulate, PrintsTheTimeSpentInEachKernel) {
   EXPECT_NE(text.out.find("share %"), text.out.npos) << text.out;
   const auto times = beltlife(arguments + Arguments{"--json"}).json()["kernel_times"];
   const auto kernels = beltlife({"check", scene("two_pulley"), "--json"}).json()["kernels"];
-  std::vector<std::string> timed;
+  EXPECT_GT(times.size(), 5u);
   for (const auto& line : times) {
-    timed.push_back(line["name"]);
     EXPECT_GT(line["calls"], 0);
+    EXPECT_NE(std::find(kernels.begin(), kernels.end(), line["name"]), kernels.end()) << line["name"];
   }
-  for (const std::string kernel : kernels)
-    EXPECT_NE(std::find(timed.begin(), timed.end(), kernel), timed.end()) << kernel;
 }
 
 TEST(Simulate, TakesSchemeStepAndElementsFromFlags) {

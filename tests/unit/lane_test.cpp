@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/lanes/lane_belt.h"
@@ -147,7 +148,7 @@ Eigen::VectorXd dense_solution(Moving& drive) {
 double solve_error(const std::vector<std::string>& settings, LaneUse use, double step, bool whole_fill) {
   Moving drive(settings, use, step);
   LaneBelt& b = drive.in_lanes();
-  if (whole_fill) b.fill_rows = b.rows - 2;
+  if (whole_fill) std::fill(b.fill_rows, b.fill_rows + lanes, b.rows - 2);
   lane_elements(b);
   drive.contact();
   lane_solve(b);
