@@ -64,8 +64,7 @@ struct LaneBelt {
   // Factors: of node j the inverse of its pivot, the products with what follows, and with the left interface.
   LaneArray inverse00, inverse01, inverse11, rhs_x, rhs_y;
   LaneArray next[4], after[4], left[8];
-  int fill_rows[lanes] =
-      {};  ///< rows beyond which the left interface is not felt; each lane's own, whatever its mates'
+  int fill_rows[lanes] = {};  ///< rows beyond which the left interface is not felt, each lane's own
 
   std::vector<ContactBlock> blocks;
 };
