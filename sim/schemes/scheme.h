@@ -37,7 +37,7 @@ class DriveView {
   double time_, step_;
 };
 
-/// Advances one drive in time. The model and the profile must outlive it.
+/// Advances one drive in time with an explicit scheme. The model and the profile must outlive it.
 class Simulator {
  public:
   Simulator(const Model& model, const SpeedProfile& profile, Scheme scheme, double step);

@@ -1,5 +1,6 @@
 // The simulator shell around the schemes: see scheme.h.
 #include <chrono>
+#include <stdexcept>
 
 #include "sim/contact_search.h"
 #include "sim/schemes/scheme.h"
@@ -14,6 +15,7 @@ Simulator::Simulator(const Model& model, const SpeedProfile& profile, Scheme sch
       state_(model.initial),
       work_(make_work(model)),
       program_(force_program(model)) {
+  if (scheme == Scheme::linearly_implicit) throw std::logic_error("a LaneSimulator runs the linearly implicit scheme");
   if (scheme == Scheme::thesis) {
     predicted_ = model.initial.q;
     first_fx_ = NodeArray(model.belt.nodes);

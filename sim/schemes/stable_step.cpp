@@ -41,13 +41,18 @@ void add_pair(std::vector<StepLimit>& out, const std::string& name, double k, do
 
 // The linearly implicit scheme was never seen to blow up; it loses accuracy. What it must resolve is how a node meets a
 // pulley, a quarter of a period at w^2 = A kp/m: within h w = 0.6 the entry peaks of normal force stay within 1 to 2 %
-// (kp 1e10 to 1e11, 256 to 2000 elements). A belt without pulleys has its axial wave to resolve.
+// (kp 1e10 to 1e11, 256 to 2000 elements). Past h w = 2 of the friction anchor a node slides where it should stick, and
+// nothing diverges. A belt without pulleys has its axial wave to resolve.
 std::vector<StepLimit> accuracy_limits(const Model& m) {
   if (m.pulleys == 0)
     return {{"axial belt wave", "h w = 0.6, w^2 = 4 EA/(l0 m)",
              0.6 / std::sqrt(4 * m.belt.axial_stiffness / (m.belt.element_length * m.belt.node_mass))}};
-  return {
-      {"belt entry (accuracy)", "h w = 0.6, w^2 = A kp/m", 0.6 / std::sqrt(m.contact.stiffness / m.belt.node_mass)}};
+  std::vector<StepLimit> out{
+      {"belt entry (accuracy)", "h w = 0.6, w^2 = A kp/m", 0.6 / std::sqrt(m.contact.stiffness / m.belt.node_mass)},
+      {"friction anchor (accuracy)", "h w = 0.9, w^2 = A kt/m",
+       0.9 / std::sqrt(m.contact.friction_stiffness / m.belt.node_mass)}};
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.limit_s < b.limit_s; });
+  return out;
 }
 
 }  // namespace

@@ -69,13 +69,18 @@ inline SceneSpec ring(int elements, double length_mm, double speed_rad_s) {
 /// Speed of the driven body: rest, a ramp over [0, ramp_s], then constant.
 inline SpeedProfile ramp(double rad_s, double ramp_s) { return SpeedProfile({0, ramp_s}, {0, rad_s}); }
 
+/// The explicit scheme that a Simulator of this scene takes: the scene's, or symplectic Euler for the implicit one.
+inline Scheme explicit_scheme(const SceneSpec& scene) {
+  return scene.solver.scheme == Scheme::linearly_implicit ? Scheme::symplectic_euler : scene.solver.scheme;
+}
+
 /// A drive in motion: the model, its profile and the simulator that refers to both.
 struct Drive {
   explicit Drive(const SceneSpec& scene, SpeedProfile given = {})
       : model(compile(scene)),
         profile(std::move(given)),
-        simulator(model, profile, scene.solver.scheme,
-                  scene.solver.step_s.value_or(stable_step(model, scene.solver.scheme))) {}
+        simulator(model, profile, explicit_scheme(scene),
+                  scene.solver.step_s.value_or(stable_step(model, explicit_scheme(scene)))) {}
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
 

@@ -71,7 +71,8 @@ TEST(StepLimits, AreSortedAndTheStableStepIsBelowAllOfThem) {
 }
 
 TEST(StepLimits, OfTheThesisDriveAreThoseOfItsDampers) {
-  const Model model = compile(read_scene(BELTLIFE_SCENES "/baseline.toml", {"belt.elements=513"}).scene);
+  const Model model =
+      compile(read_scene(BELTLIFE_SCENES "/baseline.toml", {"belt.elements=513", "solver.scheme=thesis"}).scene);
   const auto limit = [&](const char* name) {
     for (const auto& l : step_limits(model, Scheme::thesis))
       if (l.name == name) return l.limit_s;
@@ -93,7 +94,7 @@ struct Overstep {
   explicit Overstep(const std::vector<std::string>& further = {}) {
     // At 512 elements the belt is what limits the step: 1.6 of its limits are still half of the turbine shaft's.
     std::vector<std::string> settings{"profile.settle_s=0.005", "profile.ramp_s=0.05", "profile.hold_s=0.05",
-                                      "profile.evaluate_s=0.05"};
+                                      "profile.evaluate_s=0.05", "solver.scheme=symplectic_euler"};
     settings.insert(settings.end(), further.begin(), further.end());
     SceneSpec scene = read_scene(BELTLIFE_SCENES "/baseline.toml", settings).scene;
     const double limit = step_limits(compile(scene), scene.solver.scheme).front().limit_s;

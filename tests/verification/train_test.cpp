@@ -19,7 +19,7 @@ constexpr double rpm = 30 / std::numbers::pi;
 const std::string free_belt = R"(format = 1
 rotation = "counterclockwise"
 [belt]
-elements = 16
+elements = 48
 unstretched_length_mm = 1000
 axial_stiffness_n = 1000
 mass_kg_per_m = 0.1
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(EitherScheme, TorsionalChain, testing::Values(Scheme::t
 // A pinion in mesh with a pulley whose speed is given, dragged by a constant torque.
 Model rattling_pinion() {
   SceneSpec scene = read_scene(BELTLIFE_SCENES "/two_pulley.toml",
-                               {"belt.elements=32", "belt.axial_damping_n_s=0", "belt.bending_damping_n_m2_s=0"})
+                               {"belt.elements=48", "belt.axial_damping_n_s=0", "belt.bending_damping_n_m2_s=0"})
                         .scene;
   scene.body = {{.name = "pinion", .inertia_kg_m2 = 1e-4}};
   scene.gear_pair = {{.name = "mesh",
