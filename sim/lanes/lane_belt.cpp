@@ -33,7 +33,6 @@ LaneBelt make_lane_belt(const std::vector<const Model*>& drives, LaneUse use, do
     const Model& m = *drives[static_cast<std::size_t>(k) < drives.size() ? k : 0];
     const double l0 = m.belt.element_length;
     b.mass[k] = m.belt.node_mass;
-    b.inverse_mass[k] = 1 / m.belt.node_mass;
     b.length[k] = l0;
     b.axial_stiffness[k] = m.belt.axial_stiffness / l0;
     b.axial_damping[k] = m.belt.axial_damping / l0;
@@ -82,9 +81,6 @@ LaneBelt make_lane_belt(const std::vector<const Model*>& drives, LaneUse use, do
                        &b.normal_last,
                        &b.normal_before,
                        &b.tangential_peak,
-                       &b.inverse00,
-                       &b.inverse01,
-                       &b.inverse11,
                        &b.rhs_x,
                        &b.rhs_y})
     *a = LaneArray(b.rows);

@@ -35,10 +35,11 @@ struct LaneBelt {
   int rows = 0;
   double step = 0;  ///< h, s
   bool bending_damping = false, bending_stiffness = false;
+  bool peaks = false;  ///< whether the largest contact forces are kept
 
   // Constants of each lane, SI units as in BeltModel and ContactModel.
-  LaneNumber mass, inverse_mass, length, axial_stiffness, axial_damping;  ///< m, 1/m, l0, EA/l0, CA/l0
-  LaneNumber bend_stiffness, bend_damping;                                ///< EI/l0, CI/l0
+  LaneNumber mass, length, axial_stiffness, axial_damping;  ///< m, l0, EA/l0, CA/l0
+  LaneNumber bend_stiffness, bend_damping;                  ///< EI/l0, CI/l0
   LaneNumber contact_stiffness, contact_damping, separation_damping;
   LaneNumber friction_stiffness, inverse_friction_stiffness, friction_speed, anchor_share;
   LaneNumber axial_tangent;    ///< h^2/4 EA/l0 + theta h CA/l0, kg
@@ -61,8 +62,9 @@ struct LaneBelt {
   LaneArray normal_last, normal_before;          ///< normal force one and two steps ago, N
   LaneArray normal_peak, tangential_peak;        ///< largest since they were last cleared, N
 
-  // Factors: of node j the inverse of its pivot, the products with what follows, and with the left interface.
-  LaneArray inverse00, inverse01, inverse11, rhs_x, rhs_y;
+  // Factors: of node j its eliminated right-hand side, the products of its inverse pivot with what follows, and with
+  // the left interface.
+  LaneArray rhs_x, rhs_y;
   LaneArray next[4], after[4], left[8];
   int fill_rows[lanes] = {};  ///< rows beyond which the left interface is not felt, each lane's own
 

@@ -13,17 +13,19 @@ namespace beltlife {
 namespace {
 
 struct Law {
-  LaneNumber inverse_mass, stiffness, damping, separation_damping;
+  LaneNumber mass, stiffness, damping, separation_damping;
   LaneNumber friction_stiffness, inverse_friction_stiffness, friction_speed;
   LaneNumber anchor_limit, velocity_limit;  // beta mu, (1 - beta) mu
 };
 
-BELTLIFE_VECTOR void contact_rows(int begin, int end, double h, const Law& c, const LanePulleys& p, const double* x,
-                                  const double* y, const double* vx, const double* vy, const double* dvx,
-                                  const double* dvy, double* anchor, double* fx, double* fy, double* normal_x,
-                                  double* normal_y, double* distance, double* normal, double* tangential,
-                                  double* normal_tangent, double* tangential_tangent, double* lag,
-                                  double* tangential_now, double* creep) {
+template <bool Peaks>
+[[gnu::always_inline]] inline void contact_rows(int begin, int end, double h, const Law& c, const LanePulleys& p,
+                                                const double* x, const double* y, const double* vx, const double* vy,
+                                                const double* dvx, const double* dvy, double* anchor, double* fx,
+                                                double* fy, double* normal_x, double* normal_y, double* distance,
+                                                double* normal, double* tangential, double* normal_tangent,
+                                                double* tangential_tangent, double* lag, double* tangential_now,
+                                                double* creep) {
   const double quarter = 0.25 * h * h, half = 0.5 * h;
   for (int j = begin; j < end; ++j) {
     const int o = j * lanes;
@@ -53,8 +55,12 @@ BELTLIFE_VECTOR void contact_rows(int begin, int end, double h, const Law& c, co
       // sliding, so that a light node cannot jump across the slope and back. Weights between 1/2 (slope slow beside the
       // step) and 1, as the exact decay of z = h slope/m has.
       const double size = vt_now > 0 ? vt_now : -vt_now;
-      const double slope = c.velocity_limit[k] * fn_limit / (size > c.friction_speed[k] ? size : c.friction_speed[k]);
-      const double z = h * slope * c.inverse_mass[k], weight = 0.5 + 0.5 * z / (z + 6.0);
+      const double pace = size > c.friction_speed[k] ? size : c.friction_speed[k];
+      // slope = most/pace, z = h slope/m, weight = 1/2 + 1/2 z/(z + 6), by one division.
+      const double most = c.velocity_limit[k] * fn_limit, still = 6.0 * c.mass[k] * pace + h * most;
+      const double inverse_both = 1.0 / (pace * still);
+      const double slope = most * (still * inverse_both);
+      const double weight = 0.5 + 0.5 * h * most * (pace * inverse_both);
       const double fv = slope * (vt - weight * p.speed_change[k] * r);
       const double ft = -(fs + fv);
       anchor[i] = fs * c.inverse_friction_stiffness[k];
@@ -65,22 +71,26 @@ BELTLIFE_VECTOR void contact_rows(int begin, int end, double h, const Law& c, co
       distance[i] = r;
       normal[i] = fn;
       tangential[i] = ft;
-      lag[i] = bulge;
-      tangential_now[i] = -(fs + slope * (vt - 0.5 * p.speed_change[k] * r));
-      creep[i] = slope;
+      if (Peaks) {
+        lag[i] = bulge;
+        tangential_now[i] = -(fs + slope * (vt - 0.5 * p.speed_change[k] * r));
+        creep[i] = slope;
+      }
       normal_tangent[i] = on * (quarter * c.stiffness[k] + half * damping);
       tangential_tangent[i] = (fs == spring ? on * quarter * c.friction_stiffness[k] : 0.0) + weight * h * slope;
     }
   }
 }
 
-BELTLIFE_VECTOR void reaction_rows(int begin, int end, double inverse_step, const double* dvx, const double* dvy,
-                                   const double* normal_x, const double* normal_y, const double* distance,
-                                   const double* normal_tangent, const double* tangential_tangent,
-                                   const LaneNumber& averaging, const double* lag, const double* tangential_now,
-                                   const double* creep, double* normal, double* tangential, double* normal_last,
-                                   double* normal_before, double* normal_peak, double* tangential_peak,
-                                   LaneNumber& load_x, LaneNumber& load_y, LaneNumber& moment) {
+template <bool Peaks>
+[[gnu::always_inline]] inline void reaction_rows(int begin, int end, double inverse_step, const double* dvx,
+                                                 const double* dvy, const double* normal_x, const double* normal_y,
+                                                 const double* distance, const double* normal_tangent,
+                                                 const double* tangential_tangent, const LaneNumber& averaging,
+                                                 const double* lag, const double* tangential_now, const double* creep,
+                                                 double* normal, double* tangential, double* normal_last,
+                                                 double* normal_before, double* normal_peak, double* tangential_peak,
+                                                 LaneNumber& load_x, LaneNumber& load_y, LaneNumber& moment) {
   for (int j = begin; j < end; ++j) {
     const int o = j * lanes;
     BELTLIFE_EACH_LANE(k) {
@@ -90,17 +100,21 @@ BELTLIFE_VECTOR void reaction_rows(int begin, int end, double inverse_step, cons
       const double ft = tangential[i] - inverse_step * tangential_tangent[i] * (dvy[i] * nx - dvx[i] * ny);
       normal[i] = fn;
       tangential[i] = ft;
-      // The force at t_n itself, without the averaging over the step; the parabola through three of them has the peak.
-      const double now = fn + lag[i] + averaging[k] * (normal_tangent[i] > 0 ? 1.0 : 0.0) * (dvx[i] * nx + dvy[i] * ny);
-      const double last = normal_last[i], before = normal_before[i];
-      const double bend = 2 * last - before - now, slope = now - before;
-      const double top = last + (bend > 0 && slope < bend && slope > -bend ? 0.125 * slope * slope / bend : 0.0);
-      normal_before[i] = last;
-      normal_last[i] = now;
-      normal_peak[i] = normal_peak[i] > top ? normal_peak[i] : top;
-      const double ft_now = tangential_now[i] - 0.5 * creep[i] * (dvy[i] * nx - dvx[i] * ny);
-      const double size = ft_now > 0 ? ft_now : -ft_now;
-      tangential_peak[i] = tangential_peak[i] > size ? tangential_peak[i] : size;
+      if (Peaks) {
+        // The force at t_n itself, without the averaging over the step; the parabola through three of them has the
+        // peak.
+        const double now =
+            fn + lag[i] + averaging[k] * (normal_tangent[i] > 0 ? 1.0 : 0.0) * (dvx[i] * nx + dvy[i] * ny);
+        const double last = normal_last[i], before = normal_before[i];
+        const double bend = 2 * last - before - now, slope = now - before;
+        const double top = last + (bend > 0 && slope < bend && slope > -bend ? 0.125 * slope * slope / bend : 0.0);
+        normal_before[i] = last;
+        normal_last[i] = now;
+        normal_peak[i] = normal_peak[i] > top ? normal_peak[i] : top;
+        const double ft_now = tangential_now[i] - 0.5 * creep[i] * (dvy[i] * nx - dvx[i] * ny);
+        const double size = ft_now > 0 ? ft_now : -ft_now;
+        tangential_peak[i] = tangential_peak[i] > size ? tangential_peak[i] : size;
+      }
       load_x[k] -= fn * nx - ft * ny;
       load_y[k] -= fn * ny + ft * nx;
       moment[k] -= ft * distance[i];
@@ -108,12 +122,56 @@ BELTLIFE_VECTOR void reaction_rows(int begin, int end, double inverse_step, cons
   }
 }
 
+BELTLIFE_VECTOR void contact_plain(int begin, int end, double h, const Law& c, const LanePulleys& p, const double* x,
+                                   const double* y, const double* vx, const double* vy, const double* dvx,
+                                   const double* dvy, double* anchor, double* fx, double* fy, double* normal_x,
+                                   double* normal_y, double* distance, double* normal, double* tangential,
+                                   double* normal_tangent, double* tangential_tangent, double* lag,
+                                   double* tangential_now, double* creep) {
+  contact_rows<false>(begin, end, h, c, p, x, y, vx, vy, dvx, dvy, anchor, fx, fy, normal_x, normal_y, distance, normal,
+                      tangential, normal_tangent, tangential_tangent, lag, tangential_now, creep);
+}
+
+BELTLIFE_VECTOR void contact_peaks(int begin, int end, double h, const Law& c, const LanePulleys& p, const double* x,
+                                   const double* y, const double* vx, const double* vy, const double* dvx,
+                                   const double* dvy, double* anchor, double* fx, double* fy, double* normal_x,
+                                   double* normal_y, double* distance, double* normal, double* tangential,
+                                   double* normal_tangent, double* tangential_tangent, double* lag,
+                                   double* tangential_now, double* creep) {
+  contact_rows<true>(begin, end, h, c, p, x, y, vx, vy, dvx, dvy, anchor, fx, fy, normal_x, normal_y, distance, normal,
+                     tangential, normal_tangent, tangential_tangent, lag, tangential_now, creep);
+}
+
+BELTLIFE_VECTOR void reaction_plain(int begin, int end, double inverse_step, const double* dvx, const double* dvy,
+                                    const double* normal_x, const double* normal_y, const double* distance,
+                                    const double* normal_tangent, const double* tangential_tangent,
+                                    const LaneNumber& averaging, const double* lag, const double* tangential_now,
+                                    const double* creep, double* normal, double* tangential, double* normal_last,
+                                    double* normal_before, double* normal_peak, double* tangential_peak,
+                                    LaneNumber& load_x, LaneNumber& load_y, LaneNumber& moment) {
+  reaction_rows<false>(begin, end, inverse_step, dvx, dvy, normal_x, normal_y, distance, normal_tangent,
+                       tangential_tangent, averaging, lag, tangential_now, creep, normal, tangential, normal_last,
+                       normal_before, normal_peak, tangential_peak, load_x, load_y, moment);
+}
+
+BELTLIFE_VECTOR void reaction_peaks(int begin, int end, double inverse_step, const double* dvx, const double* dvy,
+                                    const double* normal_x, const double* normal_y, const double* distance,
+                                    const double* normal_tangent, const double* tangential_tangent,
+                                    const LaneNumber& averaging, const double* lag, const double* tangential_now,
+                                    const double* creep, double* normal, double* tangential, double* normal_last,
+                                    double* normal_before, double* normal_peak, double* tangential_peak,
+                                    LaneNumber& load_x, LaneNumber& load_y, LaneNumber& moment) {
+  reaction_rows<true>(begin, end, inverse_step, dvx, dvy, normal_x, normal_y, distance, normal_tangent,
+                      tangential_tangent, averaging, lag, tangential_now, creep, normal, tangential, normal_last,
+                      normal_before, normal_peak, tangential_peak, load_x, load_y, moment);
+}
+
 }  // namespace
 
 void lane_contact(LaneBelt& b, int begin, int end, const LanePulleys& p) {
   Law law;
   for (int k = 0; k < lanes; ++k) {
-    law.inverse_mass[k] = b.inverse_mass[k];
+    law.mass[k] = b.mass[k];
     law.stiffness[k] = b.contact_stiffness[k];
     law.damping[k] = b.contact_damping[k];
     law.separation_damping[k] = b.separation_damping[k];
@@ -123,19 +181,21 @@ void lane_contact(LaneBelt& b, int begin, int end, const LanePulleys& p) {
     law.anchor_limit[k] = b.anchor_share[k] * p.friction[k];
     law.velocity_limit[k] = (1 - b.anchor_share[k]) * p.friction[k];
   }
-  contact_rows(begin, end, b.step, law, p, b.x.data(), b.y.data(), b.vx.data(), b.vy.data(), b.dvx.data(), b.dvy.data(),
-               b.anchor.data(), b.fx.data(), b.fy.data(), b.normal_x.data(), b.normal_y.data(), b.distance.data(),
-               b.normal.data(), b.tangential.data(), b.normal_tangent.data(), b.tangential_tangent.data(), b.lag.data(),
-               b.tangential_now.data(), b.creep.data());
+  (b.peaks ? contact_peaks : contact_plain)(
+      begin, end, b.step, law, p, b.x.data(), b.y.data(), b.vx.data(), b.vy.data(), b.dvx.data(), b.dvy.data(),
+      b.anchor.data(), b.fx.data(), b.fy.data(), b.normal_x.data(), b.normal_y.data(), b.distance.data(),
+      b.normal.data(), b.tangential.data(), b.normal_tangent.data(), b.tangential_tangent.data(), b.lag.data(),
+      b.tangential_now.data(), b.creep.data());
 }
 
 void lane_reactions(LaneBelt& b, int begin, int end, LaneLoads& loads) {
   LaneNumber averaging;
   for (int k = 0; k < lanes; ++k) averaging[k] = 0.25 * b.step * b.contact_stiffness[k];
-  reaction_rows(begin, end, 1 / b.step, b.dvx.data(), b.dvy.data(), b.normal_x.data(), b.normal_y.data(),
-                b.distance.data(), b.normal_tangent.data(), b.tangential_tangent.data(), averaging, b.lag.data(),
-                b.tangential_now.data(), b.creep.data(), b.normal.data(), b.tangential.data(), b.normal_last.data(),
-                b.normal_before.data(), b.normal_peak.data(), b.tangential_peak.data(), loads.x, loads.y, loads.moment);
+  (b.peaks ? reaction_peaks : reaction_plain)(
+      begin, end, 1 / b.step, b.dvx.data(), b.dvy.data(), b.normal_x.data(), b.normal_y.data(), b.distance.data(),
+      b.normal_tangent.data(), b.tangential_tangent.data(), averaging, b.lag.data(), b.tangential_now.data(),
+      b.creep.data(), b.normal.data(), b.tangential.data(), b.normal_last.data(), b.normal_before.data(),
+      b.normal_peak.data(), b.tangential_peak.data(), loads.x, loads.y, loads.moment);
 }
 
 }  // namespace beltlife

@@ -35,6 +35,9 @@ class LaneSimulator {
   void profile_kernels(bool on);
   const std::vector<KernelTime>& kernel_times() const { return times_; }
 
+  /// Whether the largest contact forces between observations are kept; off at first.
+  void keep_peaks(bool on) { belt_.peaks = on; }
+
   /// Whether the next step begins with a search for contacts: until then every node keeps its candidate pulley.
   bool search_due() const { return step_count_ >= next_search_; }
 

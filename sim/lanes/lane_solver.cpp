@@ -82,7 +82,7 @@ template <bool Bending>
 }
 
 struct Factors {
-  double *inverse00, *inverse01, *inverse11, *rhs_x, *rhs_y;
+  double *rhs_x, *rhs_y;
   double* next[4];
   double* after[4];
   double* left[8];
@@ -370,7 +370,7 @@ void lane_solve(LaneBelt& b) {
                    b.tangential_tangent.data(),
                    b.fx.data(),
                    b.fy.data()};
-  Factors f{b.inverse00.data(), b.inverse01.data(), b.inverse11.data(), b.rhs_x.data(), b.rhs_y.data(), {}, {}, {}};
+  Factors f{b.rhs_x.data(), b.rhs_y.data(), {}, {}, {}};
   for (int s = 0; s < 4; ++s) f.next[s] = b.next[s].data();
   for (int s = 0; s < 4; ++s) f.after[s] = b.after[s].data();
   for (int s = 0; s < 8; ++s) f.left[s] = b.left[s].data();

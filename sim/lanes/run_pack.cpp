@@ -75,6 +75,7 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
       }
     }
     if (check_all) next_check = s.steps() + per_check;
+    s.keep_peaks(std::any_of(recorders.begin(), recorders.end(), [](const auto& r) { return r->open(); }));
     if (!sample_all) continue;
     next_sample += per_sample;
     if (options.progress) options.progress(s.time());
