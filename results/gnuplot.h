@@ -22,7 +22,7 @@ struct Chart {
     std::string label;
     double from = 0, to = 0;
   };
-  std::vector<Stretch> stretches;
+  std::vector<Stretch> stretches = {};
 };
 
 /// Bars of layers on top of each other, in percent or what else adds up.

@@ -117,6 +117,10 @@ double Hdf5Source::number(const std::string& path, std::string_view attribute) c
   return value;
 }
 
+bool Hdf5Source::has(const std::string& path, std::string_view attribute) const {
+  return H5Aexists_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT) > 0;
+}
+
 std::int64_t Hdf5Source::integer(const std::string& path, std::string_view attribute) const {
   const Closer a{H5Aopen_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT, H5P_DEFAULT),
                  H5Aclose};

@@ -28,6 +28,7 @@ class Hdf5Source {
   double number(const std::string& path) const;
   std::vector<int> integers(const std::string& path) const;
   double number(const std::string& path, std::string_view attribute) const;
+  bool has(const std::string& path, std::string_view attribute) const;
   std::int64_t integer(const std::string& path, std::string_view attribute) const;
   std::string text(const std::string& path, std::string_view attribute) const;
 

@@ -86,7 +86,8 @@ int run_life(const CommandOptions& o) {
       details += text_of(summary) + "\n";
       if (summary.complete) j["ranges"][summary.name]["power_w"] = json_of(summary)["power_w"];
     }
-    if (!o.json) fmt::print("{}\n{}\n{}\n", heading(l), loss_table(summaries), text_of(life, over));
+    if (!o.json)
+      fmt::print("{}\n{}\n{}{}\n", heading(l), loss_table(summaries), settling_lines(l, records), text_of(life, over));
     if (o.flank_for_life_h > 0) {
       const auto height = flank_height_for_life(loads, l.file.scene.fatigue, o.flank_for_life_h);
       if (height) j["flank_height_mm_for_life"] = *height;

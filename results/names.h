@@ -63,6 +63,7 @@ inline constexpr std::string_view run_simulated_s = "simulated_s";
 inline constexpr std::string_view run_wall_s = "wall_s";
 inline constexpr std::string_view run_step_s = "step_s";
 inline constexpr std::string_view run_steps = "steps";
+inline constexpr std::string_view run_settling_change = "settling_change";
 inline constexpr std::string_view run_friction_overdamped_s = "friction_overdamped_s";
 inline constexpr std::string_view name = "name";
 inline constexpr std::string_view range_run = "run";
@@ -105,9 +106,11 @@ inline constexpr std::string_view curve_damping_ratio = "damping_ratio";
 inline constexpr Dataset time{"time_s", "s", "time since the start of the run"};
 
 inline constexpr Dataset normal_resolved{
-    "normal_resolved_n", "N", "largest normal force on one element of each pass, among observations 5e-6 s apart"};
+    "normal_resolved_n", "N",
+    "largest normal force on one element of each pass, of all steps (explicit: every 5e-6 s)"};
 inline constexpr Dataset tangential_resolved{
-    "tangential_resolved_n", "N", "largest friction force (absolute) of each pass, among observations 5e-6 s apart"};
+    "tangential_resolved_n", "N",
+    "largest friction force (absolute) of each pass, of all steps (explicit: every 5e-6 s)"};
 inline constexpr Dataset normal_sampled{"normal_sampled_n", "N",
                                         "largest normal force of each pass that a sample caught, among the samples"};
 inline constexpr Dataset tangential_sampled{"tangential_sampled_n", "N",

@@ -170,6 +170,16 @@ std::string text_of(const RangeSummary& s) {
   return out;
 }
 
+std::string settling_text(const RunRecord& run, const ProfileSpec& p) {
+  if (!run.settling_change || !p.settled_within) return "";
+  const double whole = p.settle_s + p.ramp_s + p.hold_s, change = 100 * *run.settling_change;
+  if (*run.settling_change > *p.settled_within)
+    return fmt::format("ran to its end of {:.4g} s: last two stretches of {:g} s differ by {:.3g} %", whole,
+                       p.evaluate_s, change);
+  return fmt::format("ended after {:.4g} of {:.4g} s: last two stretches of {:g} s agree within {:.3g} %",
+                     run.simulated_s, whole, p.evaluate_s, change);
+}
+
 std::string loss_table(const std::vector<RangeSummary>& ranges) {
   Table table({"range", "torque tables W", "driver W", "belt bending loss W", "friction W", "other losses W",
                "not accounted %"});

@@ -18,6 +18,8 @@ nlohmann::json json_of(const RangeLoad& load);
 nlohmann::json json_of(const RunStatus& status);
 
 std::string text_of(const RangeSummary& summary);
+/// How a range that may end early did end, in words; empty of one that may not, or that failed.
+std::string settling_text(const RunRecord& run, const ProfileSpec& profile);
 /// `over` says of what: "the duty cycle", "range B100 alone".
 std::string text_of(const Life& life, const std::string& over);
 /// A number by a format; "no end" where it is infinite, "-" where there is none.

@@ -8,6 +8,7 @@
 
 #include "results/gnuplot.h"
 #include "results/html.h"
+#include "results/print.h"
 #include "results/report_sections.h"
 #include "sim/signal/spectrum.h"
 
@@ -136,7 +137,7 @@ std::string belt_charts(const Subject& s, const Subject::Range& r) {
                         passes(s, e, normal.x, std::min(round, normal.x.back()))});
 }
 
-std::string range_tables(const Subject::Range& r) {
+std::string range_tables(const Subject& s, const Subject::Range& r) {
   std::vector<Row> spans, pulleys, orders;
   for (const SpanSummary& span : r.summary.spans)
     spans.push_back({span.name, html_number(span.tension_n_mean), html_number(span.tension_n_min),
@@ -147,6 +148,8 @@ std::string range_tables(const Subject::Range& r) {
                        html_number(p.hub_load_n), html_number(p.hub_load_n_max), html_number(p.hub_direction_deg),
                        html_number(p.torque_n_m_mean, 2)});
   std::string html;
+  if (const std::string words = settling_text(*r.run, s.model.scene.profile); !words.empty())
+    html += "<p>This range " + html_escaped(words) + ".</p>\n";
   if (r.summary.arm_angle_mean) {
     constexpr double degree = 180 / std::numbers::pi;
     html += fmt::format(
@@ -185,7 +188,7 @@ std::string ranges_section(const Subject& s) {
                         &r == shown_range(s) ? " open" : "", html_escaped(r.window->range),
                         r.window->crank_rpm > 0 ? fmt::format(", {:g} r/min", r.window->crank_rpm) : "",
                         r.window->complete ? "" : " (incomplete)") +
-            output_charts(s, r) + belt_charts(s, r) + "</div>\n" + range_tables(r) + "</details>\n";
+            output_charts(s, r) + belt_charts(s, r) + "</div>\n" + range_tables(s, r) + "</details>\n";
   return html + "</section>\n";
 }
 

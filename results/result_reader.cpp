@@ -1,6 +1,8 @@
 // From an HDF5 result file back to records: see result_reader.h.
 #include "results/result_reader.h"
 
+#include <cmath>
+
 #include "results/hdf5_source.h"
 #include "results/modes_group.h"
 #include "results/names.h"
@@ -32,6 +34,9 @@ RunRecord run_of(const Hdf5Source& file, const std::string& at) {
   run.wall_s = file.number(at, names::run_wall_s);
   run.step_s = file.number(at, names::run_step_s);
   run.steps = file.integer(at, names::run_steps);
+  if (file.has(at, names::run_settling_change))  // older files do not hold it
+    if (const double change = file.number(at, names::run_settling_change); !std::isnan(change))
+      run.settling_change = change;
   run.friction_overdamped_s = file.number(at, names::run_friction_overdamped_s);
   const std::string trace = at + std::string(names::trace);
   run.trace.time_s = file.numbers(below(trace, names::time.name));

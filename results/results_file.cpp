@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 
@@ -104,6 +105,7 @@ void put_run(Hdf5Image& file, const std::string& at, const RunRecord& run) {
   file.attribute(at, names::run_wall_s, run.wall_s);
   file.attribute(at, names::run_step_s, run.step_s);
   file.attribute(at, names::run_steps, run.steps);
+  file.attribute(at, names::run_settling_change, run.settling_change.value_or(std::nan("")));
   file.attribute(at, names::run_friction_overdamped_s, run.friction_overdamped_s);
 
   const std::string trace = at + std::string(names::trace);

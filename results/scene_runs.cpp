@@ -18,11 +18,13 @@ namespace {
 // A measured speed is what counts, not the speed that a range is named after.
 void warn_of_speed(const std::vector<RunPlan>& plans, const SceneSpec& scene) {
   for (const RunPlan& plan : plans)
-    for (const Window& window : plan.windows)
+    for (const Window& window : plan.windows) {
+      if (plan.settled_within && &window != &plan.windows.back()) continue;  // stretches of one hold
       for (const RangeSpec& range : scene.range)
         if (range.name == window.range && std::abs(window.crank_rpm - range.crank_rpm) > 0.05 * range.crank_rpm)
           fmt::print(stderr, "warning: range {} is stated at {:g} r/min, the measured speed in its window is {:.0f}\n",
                      range.name, range.crank_rpm, window.crank_rpm);
+    }
 }
 
 double seconds_of(const std::vector<RunPlan>& plans) {
@@ -98,6 +100,14 @@ std::vector<RunRecord> records_of(std::vector<RunOutcome>&& outcomes) {
   return records;
 }
 
+std::string settling_lines(const LoadedScene& l, const std::vector<RunRecord>& records) {
+  std::string lines;
+  for (const RunRecord& run : records)
+    if (const std::string words = settling_text(run, l.file.scene.profile); !words.empty())
+      lines += run.windows.front().range + ": " + words + "\n";
+  return lines.empty() ? "" : lines + "\n";
+}
+
 bool report_failures(const std::vector<RunRecord>& records, const std::vector<RunPlan>& plans) {
   bool failed = false;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -120,6 +130,10 @@ nlohmann::json json_of_runs(const std::vector<RunRecord>& records, const std::ve
   for (std::size_t i = 0; i < records.size(); ++i) {
     runs.push_back(json_of(records[i].status));
     runs.back()["run"] = plans[i].name;
+    runs.back()["simulated_s"] = records[i].simulated_s;
+    if (!plans[i].settled_within) continue;
+    runs.back()["planned_s"] = plans[i].end_s;
+    runs.back()["settling_change"] = finite(records[i].settling_change.value_or(std::nan("")));
   }
   return runs;
 }

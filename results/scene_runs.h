@@ -27,6 +27,9 @@ std::vector<RangeSummary> summaries_of(const LoadedScene& scene, const std::vect
 void write_file(const LoadedScene& scene, const std::vector<RunRecord>& records, const Life* life,
                 const CommandOptions& options);
 
+/// Of ranges that may end early, how each ended: a line each.
+std::string settling_lines(const LoadedScene& scene, const std::vector<RunRecord>& records);
+
 /// Failures on standard error; whether there were any.
 bool report_failures(const std::vector<RunRecord>& records, const std::vector<RunPlan>& plans);
 nlohmann::json json_of_runs(const std::vector<RunRecord>& records, const std::vector<RunPlan>& plans);

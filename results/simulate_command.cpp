@@ -61,8 +61,9 @@ int run_simulate(const CommandOptions& o) {
       j["kernel_times"].push_back({{"name", t.name}, {"seconds", t.seconds}, {"calls", t.calls}});
     fmt::print("{}\n", json_text(j));
   } else {
-    fmt::print("{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text, simulated, wall,
-               steps, records.front().step_s, enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
+    fmt::print("{}{}{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n", text,
+               settling_lines(l, records), simulated, wall, steps, records.front().step_s,
+               enum_name(l.file.scene.solver.scheme), l.model.belt.nodes);
     if (o.profile) fmt::print("\n{}", text_of(times, l.model.belt.nodes));
   }
   return failed ? 3 : 0;

@@ -97,6 +97,8 @@ RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const Measur
     block.end_s = block.begin_s + length;
     plan.windows.insert(plan.windows.begin(), block);
   }
+  if (measured) take_measured_speed(plan);
+  plan.settled_within = scene.profile.settled_within;
   return plan;
 }
 

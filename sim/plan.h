@@ -1,6 +1,7 @@
 // Owns what is run: a speed profile over time and the windows of it that are evaluated.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RunPlan {
   SpeedProfile profile;
   std::vector<Window> windows;
   double end_s = 0;
+  /// Windows are stretches of one hold, of which the last one run is kept; the run ends once two agree within this.
+  std::optional<double> settled_within = {};
 };
 
 /// A measured speed of the driven body: time (s, increasing) and speed (r/min, positive in the running sense).
@@ -36,7 +39,8 @@ RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const Measure
 /// All ranges one after the other: settle, ramp, then holds with transitions between; one window a range.
 RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured = nullptr);
 
-/// As plan_range, with every stretch of evaluate_s of the hold as a window, one behind the other.
+/// As plan_range, with every stretch of evaluate_s of the hold as a window, one behind the other, so that the run can
+/// end early. The last window is that of plan_range.
 RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured = nullptr);
 
 /// A scene without ranges: settle and hold, with one window named "rest".

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -119,6 +120,8 @@ struct RunRecord {
   double wall_s = 0;
   double step_s = 0;
   std::int64_t steps = 0;
+  /// Of a range that may end early: largest relative change between its last two stretches (`sim/eval/settling`).
+  std::optional<double> settling_change;
   double friction_overdamped_s = 0;  ///< simulated time during which the friction slope exceeded what the step resolves
 };
 

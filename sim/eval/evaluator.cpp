@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
+#include <mutex>
 
 #include "sim/eval/parallel_for.h"
 #include "sim/eval/run_ranges.h"
@@ -31,6 +31,7 @@ std::string pack_key(const Task& t) {
   std::string key = fmt::format("{} {} {:a} {:a} {:a} {} {} {} {} {}", enum_name(m.scene.solver.scheme), m.belt.nodes,
                                 run_step(m), m.scene.solver.sample_rate_hz, t.plan.end_s, m.pulleys, m.bodies,
                                 m.tensioner.pulley, m.driver.body, t.plan.name);
+  if (t.plan.settled_within) key += fmt::format(" {:a}", *t.plan.settled_within);
   for (const Kernel& k : force_program(m)) key += fmt::format(" {}", k.name);
   // Early end reads all records of a pack by the names of its first drive.
   for (const std::string& name : m.body_name) key += " " + name;
@@ -38,12 +39,13 @@ std::string pack_key(const Task& t) {
   return key;
 }
 
-RangeResult result_of(const Model& model, RunRecord&& record, const EvaluatorOptions& o) {
+RangeResult result_of(const Model& model, const RunPlan& plan, RunRecord&& record) {
   RangeResult r;
   r.status = record.status;
   r.step_s = record.step_s;
   r.simulated_s = record.simulated_s;
-  if (o.settled_within > 0) r.settling_change = keep_last_window(model, record);
+  if (plan.settled_within) keep_last_window(model, record);
+  r.settling_change = record.settling_change;
   const WindowRecord& window = record.windows.back();
   if (window.last_sample <= window.first_sample) return r;
   r.summary = summarise(model, record, window);
@@ -55,8 +57,8 @@ std::vector<RunOutcome> run_tasks(const std::vector<Task*>& tasks, const Evaluat
   RunOptions options;
   options.windows_only = true;
   const Model& first = *tasks.front()->model;
-  if (o.settled_within > 0)
-    options.enough = [&](const RunRecord& record) { return settled(first, record, o.settled_within); };
+  if (const auto tolerance = tasks.front()->plan.settled_within)
+    options.enough = [&first, tolerance](const RunRecord& record) { return settled(first, record, *tolerance); };
   if (first.scene.solver.scheme != Scheme::linearly_implicit) {
     std::vector<RunOutcome> out;
     for (const Task* t : tasks) out.push_back(run(*t->model, t->plan, options));
@@ -73,7 +75,7 @@ RangeResult retry(const Task& t, const EvaluatorOptions& o) {
   scene.solver.step_s = 0.5 * run_step(*t.model);
   Task again{t.key, std::make_shared<const Model>(compile(scene)), t.plan, nullptr, {}};
   auto outcomes = run_tasks({&again}, o);
-  RangeResult r = result_of(*again.model, std::move(outcomes.front().record), o);
+  RangeResult r = result_of(*again.model, again.plan, std::move(outcomes.front().record));
   r.retried = true;
   return r;
 }
@@ -171,9 +173,6 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
       if (fresh) {
         ++simulations_;
         tasks.push_back({key, model, plan, nullptr, {}});
-        if (options_.settled_within > 0)
-          for (const RangeSpec& range : points[i].range)
-            if (range.name == plan.name) tasks.back().plan = plan_blocks(points[i], range, options_.measured);
       } else {
         ++reused_;
       }
@@ -201,7 +200,7 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
     auto outcomes = run_tasks(pack, options_);
     for (std::size_t k = 0; k < pack.size(); ++k) {
       Task& t = *pack[k];
-      auto result = std::make_shared<RangeResult>(result_of(*t.model, std::move(outcomes[k].record), options_));
+      auto result = std::make_shared<RangeResult>(result_of(*t.model, t.plan, std::move(outcomes[k].record)));
       if (!result->ok() && options_.retry) *result = retry(t, options_);
       t.result = std::move(result);
     }

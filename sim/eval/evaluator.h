@@ -3,7 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,8 +24,8 @@ struct RangeResult {
   RangeLoad load;
   double step_s = 0;
   double simulated_s = 0;
-  double settling_change = 0;  ///< with early end: largest change between the last two blocks, else 0
-  bool retried = false;        ///< at half the step, after it had failed
+  std::optional<double> settling_change;  ///< with early end: largest change between the last two stretches
+  bool retried = false;                   ///< at half the step, after it had failed
 
   bool ok() const { return status.ok() && summary.complete; }
 };
@@ -46,7 +46,6 @@ struct EvaluatorOptions {
   /// bit: a study keeps to one.
   LaneUse use = LaneUse::drives;
   bool retry = true;                ///< a failed range runs once more at half its step
-  double settled_within = 0;        ///< above 0: a range ends when two blocks of evaluate_s agree within this
   std::vector<std::string> ranges;  ///< names; empty: all
   const MeasuredSpeed* measured = nullptr;
 };

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "sim/eval/parallel_for.h"
+#include "sim/eval/settling.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -26,7 +27,8 @@ std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::str
   std::vector<RunPlan> plans;
   for (const auto& range : scene.range)
     if (names.empty() || std::find(names.begin(), names.end(), range.name) != names.end())
-      plans.push_back(plan_range(scene, range, measured));
+      plans.push_back(scene.profile.settled_within ? plan_blocks(scene, range, measured)
+                                                   : plan_range(scene, range, measured));
   return plans;
 }
 
@@ -42,13 +44,18 @@ std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>
     const std::size_t i = order[static_cast<std::size_t>(k)];
     RunOptions options;
     options.profile_kernels = profile_kernels;
-    if (progress)
-      options.progress = [&, i](double time) {
-        const std::lock_guard lock(mutex);
-        done[i] = time;
-        progress(std::accumulate(done.begin(), done.end(), 0.0));
-      };
+    const auto tell = [&, i](double time) {
+      const std::lock_guard lock(mutex);
+      done[i] = time;
+      progress(std::accumulate(done.begin(), done.end(), 0.0));
+    };
+    if (progress) options.progress = tell;
+    const std::optional<double> tolerance = plans[i].settled_within;
+    if (tolerance) options.enough = [&](const RunRecord& record) { return settled(model, record, *tolerance); };
     outcomes[i] = run(model, plans[i], options);
+    if (!tolerance) return;
+    keep_last_window(model, outcomes[i].record);
+    if (progress) tell(plans[i].end_s);  // what need not be run is done
   });
   return outcomes;
 }

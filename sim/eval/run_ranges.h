@@ -11,13 +11,13 @@
 
 namespace beltlife {
 
-/// Plans of the named ranges (all if `names` is empty); a scene without ranges is run at rest. Throws BadInput for a
-/// name that the scene does not have.
+/// Plans of the named ranges (all if `names` is empty), with early end if the scene asks for it; a scene without ranges
+/// is run at rest. Throws BadInput for a name that the scene does not have.
 std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::string>& names,
                               const MeasuredSpeed* measured);
 
-/// Runs plans on `threads` threads (0: all), longest first. `progress` gets the simulated seconds done of all plans
-/// together; it is called from any thread, never from two at once.
+/// Runs plans on `threads` threads (0: all), longest first; a plan with early end leaves one window. `progress` gets
+/// the simulated seconds done of all plans together; it is called from any thread, never from two at once.
 std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>& plans, int threads,
                                   const std::function<void(double)>& progress = {}, bool profile_kernels = false);
 

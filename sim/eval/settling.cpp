@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 namespace beltlife {
 namespace {
@@ -64,16 +64,17 @@ bool settled(const Model& model, const RunRecord& record, double tolerance) {
   return largest_change(before, summarise(model, record, record.windows[windows.back()])) <= tolerance;
 }
 
-double keep_last_window(const Model& model, RunRecord& record) {
+void keep_last_window(const Model& model, RunRecord& record) {
   const auto windows = complete_windows(record);
-  if (windows.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double change = std::numeric_limits<double>::quiet_NaN();
-  const WindowRecord last = std::move(record.windows[windows.back()]);
+  if (!record.status.ok() || windows.empty()) {
+    const std::size_t failed = std::min(windows.size(), record.windows.size() - 1);  // windows end in their order
+    record.windows = {WindowRecord(std::move(record.windows[failed]))};
+    return;
+  }
   if (windows.size() > 1)
-    change = largest_change(summarise(model, record, record.windows[windows[windows.size() - 2]]),
-                            summarise(model, record, last));
-  record.windows = {last};
-  return change;
+    record.settling_change = largest_change(summarise(model, record, record.windows[windows[windows.size() - 2]]),
+                                            summarise(model, record, record.windows[windows.back()]));
+  record.windows = {WindowRecord(std::move(record.windows[windows.back()]))};
 }
 
 }  // namespace beltlife

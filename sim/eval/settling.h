@@ -1,8 +1,6 @@
 // Owns the early end of a range: whether what a window shows differs from what the window before it showed.
 #pragma once
 
-#include <vector>
-
 #include "sim/eval/summary.h"
 
 namespace beltlife {
@@ -14,8 +12,9 @@ double largest_change(const RangeSummary& before, const RangeSummary& after);
 /// For RunOptions::enough of a run over plan_blocks: the last two windows agree within `tolerance`.
 bool settled(const Model& model, const RunRecord& record, double tolerance);
 
-/// Keeps the last complete window of a run over plan_blocks, and says what the early end may have cost.
-/// Returns the largest change between the last two windows; not a number if there was only one.
-double keep_last_window(const Model& model, RunRecord& record);
+/// Keeps one window of a run over plan_blocks, the last complete one, and records its change from the one before it:
+/// what the early end may have cost. A failed run keeps the window in which it failed, or was to open next: that an
+/// earlier one is whole must not pass for a result.
+void keep_last_window(const Model& model, RunRecord& record);
 
 }  // namespace beltlife

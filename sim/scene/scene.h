@@ -34,7 +34,7 @@ struct EnumNames<Scheme> {
 };
 
 /// Which of the recorded contact forces the stresses use: the mean over passes of the largest 1000 Hz sample, the
-/// mean of the resolved maxima (observed every 5e-6 s), or the 99th percentile of the resolved maxima.
+/// mean of the resolved maxima (of every step, or every 5e-6 s), or the 99th percentile of the resolved maxima.
 enum class PassForce { sampled, resolved, percentile_99 };
 template <>
 struct EnumNames<PassForce> {
@@ -326,6 +326,7 @@ struct ProfileSpec {
   double hold_s = 3;
   double transition_s = 0.2;
   double evaluate_s = 1;
+  std::optional<double> settled_within = std::nullopt;
 
   template <class V>
   void visit(V& v) {
@@ -334,6 +335,10 @@ struct ProfileSpec {
     v("hold_s", hold_s, above(0, 10000), "each range");
     v("transition_s", transition_s, above(0, 1000), "from range to range");
     v("evaluate_s", evaluate_s, above(0, 10000), "last part of each hold that is evaluated; at most hold_s");
+    v("settled_within", settled_within, within(1e-6, 1),
+      "a range run alone ends once two consecutive stretches of evaluate_s of its hold agree within this (tensions, "
+      "speeds, torques, slip, largest order), and the later one is evaluated; the whole profile in one piece goes on; "
+      "absent: to the end");
   }
 };
 

@@ -298,6 +298,14 @@ class SceneCheck {
                fmt::format("{} s is longer than the hold of {} s", scene_.profile.evaluate_s, scene_.profile.hold_s),
                "at most hold_s");
     }
+    if (scene_.profile.settled_within && scene_.profile.evaluate_s <= scene_.profile.hold_s &&
+        !log_.is_faulty("profile.hold_s") && !log_.is_faulty("profile.evaluate_s") &&
+        2 * scene_.profile.evaluate_s > scene_.profile.hold_s * (1 + 1e-9)) {
+      complain(SpecPath{}.child("profile").child("settled_within"),
+               fmt::format("the hold of {} s has no two stretches of {} s to compare", scene_.profile.hold_s,
+                           scene_.profile.evaluate_s),
+               "an evaluate_s of at most half of hold_s");
+    }
     const double samples = scene_.profile.evaluate_s * scene_.solver.sample_rate_hz;
     if (samples < 8 && !log_.is_faulty("profile.evaluate_s") && !log_.is_faulty("solver.sample_rate_hz")) {
       complain(evaluate,

@@ -150,6 +150,9 @@ TEST_F(Refusal, CoversSettingsAndFlags) {
   refuse({"--set", "pulley.driver.x_mm=450"}, {"pulleys driver and driven overlap by 50.0 mm"});
   refuse({"--scheme", "rk4"}, {"solver.scheme", "thesis, symplectic_euler"});
   refuse({"--step", "0"}, {"solver.step_s", "above 0, at most 0.01"});
+  refuse({"--step", "1e-4"}, {"solver.step_s: 0.0001 s is longer than the limit of belt entry", "or --force"});
+  refuse({"--step", "1e-5", "--scheme", "symplectic_euler"}, {"solver.step_s", "longer than the limit of", "at most"});
+  refuse({"--elements", "100"}, {"belt.elements", "a multiple of 8", "96 or 104, or another solver.scheme"});
   refuse({"--elements", "1e9"}, {"belt.elements", "from 16 to 20000"});
   refuse({"--range", "slwo"}, {"--range: slwo", "allowed: slow, fast"});
   expect_refused({"life", drive, "--range", "slwo"}, {"--range: slwo", "allowed: slow, fast"});

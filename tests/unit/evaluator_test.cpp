@@ -134,8 +134,8 @@ TEST(Evaluator, PointsThatDifferInAnythingElseAreRun) {
     const bool elsewhere = path == "range.slow.crank_rpm";  // what another range runs at is no matter of this one
     EXPECT_EQ(keys.size(), expected += !elsewhere) << path;
   }
-  for (const char* setting : {"rotation=counterclockwise", "solver.scheme=thesis", "pulley.driven.locked=true",
-                              "driver.control=pid", "pulley.driven.side=back"})
+  for (const char* setting : {"profile.settled_within=0.01", "rotation=counterclockwise", "solver.scheme=thesis",
+                              "pulley.driven.locked=true", "driver.control=pid", "pulley.driven.side=back"})
     EXPECT_TRUE(keys.insert(simulation_key(point({setting}), "fast")).second) << setting;
 }
 
@@ -276,15 +276,15 @@ TEST(Evaluator, ARangeThatFailsAtItsStepIsRunAgainAtHalf) {
 }
 
 TEST(Evaluator, EarlyEndReadsEveryPointByItsOwnNames) {
-  EvaluatorOptions o = options();
-  o.settled_within = 0.05;
-  const SceneSpec driven = point({"profile.evaluate_s=0.03"}),
-                  driver = point({"profile.evaluate_s=0.03", "output.body=driver"});
-  const auto p = Evaluator(o).evaluate({driven, driver});
+  const Settings early{"profile.evaluate_s=0.03", "profile.settled_within=0.05"};
+  const SceneSpec driven = point(early);
+  SceneSpec driver = driven;
+  driver.output->body = "driver";
+  const auto p = Evaluator(options()).evaluate({driven, driver});
   ASSERT_TRUE(p[0].ok());
   ASSERT_TRUE(p[1].ok());
-  EXPECT_EQ(difference(p[0], fresh(driven, o)), "");
-  EXPECT_EQ(difference(p[1], fresh(driver, o)), "");
+  EXPECT_EQ(difference(p[0], fresh(driven)), "");
+  EXPECT_EQ(difference(p[1], fresh(driver)), "");
 }
 
 }  // namespace

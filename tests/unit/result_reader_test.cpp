@@ -53,7 +53,8 @@ SceneSpec short_scene() {
 }
 
 TEST_F(ResultReader, GivesBackEveryNumberThatWasWritten) {
-  const auto runs = short_runs(short_scene());
+  auto runs = short_runs(short_scene());
+  runs[0].settling_change = 0.02;  // of one run; the other has none
   const Provenance from{"1.2", "beltlife simulate", "two_pulley.toml", "text = \"\xC2\xB5\"\n", "g++", "abc", "thesis",
                         64};
   write_results(folder / "r.h5", from, runs, nullptr);
@@ -66,6 +67,7 @@ TEST_F(ResultReader, GivesBackEveryNumberThatWasWritten) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_EQ(back.runs[i].steps, runs[i].steps);
     EXPECT_EQ(back.runs[i].step_s, runs[i].step_s);
+    EXPECT_EQ(back.runs[i].settling_change, runs[i].settling_change);
     EXPECT_EQ(back.runs[i].trace.time_s, runs[i].trace.time_s);
     ASSERT_EQ(back.runs[i].trace.channels.size(), runs[i].trace.channels.size());
     for (std::size_t c = 0; c < runs[i].trace.channels.size(); ++c) {

@@ -94,6 +94,8 @@ TEST(ReadScene, NamesLineKeyFaultAndRemedyOfEachMistake) {
     {"duty_share = 0.25", "duty_share = 0.24", "[[range]]", "range", "sum to 0.99", "1"},
     {"evaluate_s = 1", "evaluate_s = 0.005", "evaluate_s", "profile.evaluate_s", "hold 5 samples at 1000 Hz", "at least 8"},
     {"evaluate_s = 1", "evaluate_s = 2.5", "evaluate_s", "profile.evaluate_s", "longer than the hold", "hold_s"},
+    {"evaluate_s = 1", "evaluate_s = 1.2\nsettled_within = 0.01", "settled", "profile.settled_within", "no two stretches",
+     "half of hold_s"},
     {"_x_mm = 450\npivot_y_mm = 50", "_x_mm = 500\npivot_y_mm = 0", "_x_mm = 500\n", "tensioner.pivot_x_mm", "pivot",
      ""},
   };
