@@ -17,7 +17,7 @@ passed=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#.* Passed ' "$log" || true)
 skipped=$(grep -cE '^ *[0-9]+/[0-9]+ Test +#.*\*\*\*Skipped ' "$log" || true)
 echo
 echo "Ten slowest tests (s):"
-sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*/\2 \1/p' "$log" | sort -rn | head -10 | awk '{printf "  %7.2f  %s\n", $1, $2}'
+sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*/\2 \1/p' "$log" | sort -rn | awk 'NR <= 10 {printf "  %7.2f  %s\n", $1, $2}'
 echo
 echo "$passed passed, $((total - passed - skipped)) failed, $skipped skipped"
 exit $status
