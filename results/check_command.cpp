@@ -126,7 +126,7 @@ int run_check(const CommandOptions& o) {
   }
   Table table({"step limit", "s", "formula"});
   for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
-  fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (stable up to {:.4g})\nkernels:", table.text(0),
+  fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (limit {:.4g})\nkernels:", table.text(0),
              enum_name(m.scene.solver.scheme), m.belt.nodes, run_step(m), limits.front().limit_s);
   for (std::size_t i = 0; i < kernels.size(); ++i) fmt::print("{} {}", i ? "," : "", kernels[i]);
   fmt::print("\n{} quantities can be studied; --json lists them\n", quantity_names(m).size());
