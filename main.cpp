@@ -9,6 +9,7 @@
 
 #include "results/commands.h"
 #include "sim/scene/scene_io.h"
+#include "studies/commands.h"
 
 namespace {
 
@@ -49,17 +50,29 @@ void common_flags(CLI::App& app, CommandOptions& o, Shorthand& s) {
   app.add_flag("--quiet", o.quiet, "no progress on standard error");
 }
 
+void threads_flag(CLI::App& app, CommandOptions& o, const std::string& about) {
+  app.add_option("--threads", o.threads, about)
+      ->type_name("N")
+      ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); },
+                           "a whole number from 0 to 1024"));
+}
+
 void run_flags(CLI::App& app, CommandOptions& o) {
   app.add_option("--range", o.ranges, "only this operating range (repeatable)")
       ->type_name("NAME")
       ->take_all()
       ->expected(1);
-  app.add_option("--threads", o.threads, "threads over ranges, 0: all")
-      ->type_name("N")
-      ->check(number_where([](double n) { return n >= 0 && n <= 1024 && n == std::floor(n); },
-                           "a whole number from 0 to 1024"));
+  threads_flag(app, o, "threads over ranges, 0: all");
   app.add_flag("--force", o.force, "run with a step beyond the scheme's predicted limit");
   app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")
+      ->type_name("FILE.h5")
+      ->check(not_empty());
+}
+
+void driver_flags(CLI::App& app, CommandOptions& o) {
+  threads_flag(app, o, "threads over points, 0: all");
+  app.add_option("--seed", o.seed, "seed of whatever is drawn at random, instead of the file's")->type_name("N");
+  app.add_option("--out", o.out, "HDF5 result file; its log stands beside it; by default named after the study file")
       ->type_name("FILE.h5")
       ->check(not_empty());
 }
@@ -149,6 +162,38 @@ int run(int argc, char** argv) {
       "Example:\n"
       "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two.h5 && beltlife report two.h5");
 
+  CLI::App* study = app.add_subcommand("study", "what moves a quantity, and how far it can be trusted");
+  for (const beltlife::StudyKind& kind : beltlife::study_kinds()) {
+    CLI::App* of_kind = study->add_subcommand(kind.name, kind.about);
+    common_flags(*of_kind, o, shorthand);
+    driver_flags(*of_kind, o);
+    of_kind->add_option("study", scene, "study file (TOML)")->required();
+    of_kind
+        ->add_flag_callback(
+            "--fields",
+            [fields = kind.fields] {
+              std::cout << fields();
+              throw CLI::Success();
+            },
+            "print the reference of the study file's fields as Markdown and exit")
+        ->trigger_on_parse();
+    of_kind->callback([&o, name = kind.name] { o.kind = name; });
+    of_kind->footer("Example:\n  beltlife study " + kind.name + " studies/examples/" + kind.name +
+                    ".toml\nA run that is stopped goes on with the same command. Fields of the file: beltlife study " +
+                    kind.name + " --fields, or studies/README.md.");
+  }
+  study->require_subcommand(1);
+
+  CLI::App* replay = app.add_subcommand("replay", "run one point of a study again, with full output");
+  replay->add_option("file", scene, "log (.jsonl) or result file (.h5) of a study, calibration or search")->required();
+  replay->add_option("--point", o.point, "number of the point, from 0")->required()->type_name("N");
+  replay->add_option("--out", o.out, "write an HDF5 result file, for beltlife report")
+      ->type_name("FILE.h5")
+      ->check(not_empty());
+  replay->add_flag("--json", o.json, "print one JSON object on standard output");
+  replay->add_flag("--quiet", o.quiet, "no progress on standard error");
+  replay->footer("Example:\n  beltlife replay noise.jsonl --point 3 --out point3.h5 && beltlife report point3.h5");
+
   bool reference = false;
   app.add_flag("--fields", reference, "print the reference of all scene fields as Markdown and exit");
   app.require_subcommand(0, 1);
@@ -162,7 +207,7 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *modes || *simulate || *report) o.scenes = {scene};
+  if (*check || *modes || *simulate || *report || *study || *replay) o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
@@ -171,6 +216,8 @@ int run(int argc, char** argv) {
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
   if (*report) return beltlife::run_report(o);
+  if (*study) return beltlife::run_study(o);
+  if (*replay) return beltlife::run_replay(o);
   std::cerr << app.help();
   return 1;
 }

@@ -7,7 +7,7 @@
 #include "results/print.h"
 #include "results/print_statics.h"
 #include "results/table.h"
-#include "sim/eval/summary.h"
+#include "sim/eval/quantities.h"
 #include "sim/kernels/kernel.h"
 #include "sim/run.h"
 #include "sim/scene/pitch_line.h"

@@ -1,6 +1,8 @@
-// Owns the commands that look at one scene: check, simulate, life. main.cpp fills the options.
+// Owns the options of every command, and the commands that belong to no driver. main.cpp fills the options.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,15 @@ struct CommandOptions {
   int threads = 0;                    ///< --threads, 0: all
   bool json = false;
   bool quiet = false;
-  bool force = false;           ///< --force: run with a step beyond the predicted limit
-  bool each_range = false;      ///< --each-range of simulate
-  bool profile = false;         ///< --profile: time by kernel
-  std::string details;          ///< --details of life: text file for what simulate prints, empty: none
-  std::string map;              ///< --map of modes: SVG file, empty: none
-  double flank_for_life_h = 0;  ///< --flank-for of life, 0: not asked
+  bool force = false;                 ///< --force: run with a step beyond the predicted limit
+  bool each_range = false;            ///< --each-range of simulate
+  bool profile = false;               ///< --profile: time by kernel
+  std::string details;                ///< --details of life: text file for what simulate prints, empty: none
+  std::string map;                    ///< --map of modes: SVG file, empty: none
+  double flank_for_life_h = 0;        ///< --flank-for of life, 0: not asked
+  std::string kind;                   ///< KIND of study
+  std::optional<std::uint64_t> seed;  ///< --seed, in place of the study file's
+  std::size_t point = 0;              ///< --point of replay
   std::string command_line, version, revision, compiler;
 };
 
@@ -31,5 +36,7 @@ int run_simulate(const CommandOptions& options);
 int run_life(const CommandOptions& options);
 /// Reads a result file (`scenes` holds its name) and writes a page beside it, or to --out.
 int run_report(const CommandOptions& options);
+/// Runs one point of a study (`scenes` holds its log or result file) again, with full output.
+int run_replay(const CommandOptions& options);
 
 }  // namespace beltlife

@@ -95,22 +95,39 @@ void write_attribute(hid_t file, const std::string& path, std::string_view name,
   if (value != nullptr) check(H5Awrite(attribute, memory_type, value), doing);  // a list may be empty
 }
 
+/// Without `extents` the dataset has no dimension.
 void write_dataset(hid_t file, const std::string& path, hid_t file_type, hid_t memory_type, const void* values,
-                   std::size_t count, bool compress) {
+                   std::span<const hsize_t> extents, bool compress) {
   const std::string doing = "writing " + path;
-  const Handle space = line_of(count);
+  const auto rank = static_cast<int>(extents.size());
+  const Handle space(rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, extents.data(), nullptr), H5Sclose,
+                     "making a dataspace");
+  hsize_t count = 1;
+  for (const hsize_t extent : extents) count *= extent;
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, doing);
   check(H5Pset_obj_track_times(creation, false), doing);  // same input, same bytes
-  constexpr std::size_t worth_compressing = 64, largest_chunk = 8192;
+  constexpr hsize_t worth_compressing = 64, largest_chunk = 8192;
   if (compress && count >= worth_compressing) {
-    const hsize_t chunk = std::min(count, largest_chunk);
-    check(H5Pset_chunk(creation, 1, &chunk), doing);
+    std::vector<hsize_t> chunk(extents.begin(), extents.end());
+    for (hsize_t& side : chunk) side = std::min(side, rank == 1 ? largest_chunk : hsize_t{128});
+    check(H5Pset_chunk(creation, rank, chunk.data()), doing);
     check(H5Pset_shuffle(creation), doing);
     check(H5Pset_deflate(creation, 4), doing);
   }
   const Handle dataset(H5Dcreate2(file, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
                        doing);
   if (count > 0) check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), doing);
+}
+
+Handle truth_type() {
+  const char* doing = "making the type of yes and no";
+  const hid_t type = H5Tenum_create(H5T_STD_I8LE);
+  const std::int8_t no = 0, yes = 1;
+  if (type >= 0) {
+    check(H5Tenum_insert(type, "FALSE", &no), doing);
+    check(H5Tenum_insert(type, "TRUE", &yes), doing);
+  }
+  return Handle(type, H5Tclose, doing);
 }
 
 }  // namespace
@@ -133,39 +150,75 @@ void Hdf5Image::group(const std::string& path, std::string_view description) {
   attribute(path, "description", description);
 }
 
-void Hdf5Image::dataset(const std::string& path, std::span<const double> values, std::string_view unit,
-                        std::string_view about) {
-  write_dataset(file_->id, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), values.size(), true);
+void Hdf5Image::describe(const std::string& path, std::string_view unit, std::string_view about) {
   attribute(path, "unit", unit);
   attribute(path, "description", about);
+}
+
+void Hdf5Image::dataset(const std::string& path, std::span<const double> values, std::string_view unit,
+                        std::string_view about) {
+  const hsize_t extent[] = {values.size()};
+  write_dataset(file_->id, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), extent, true);
+  describe(path, unit, about);
 }
 
 void Hdf5Image::dataset(const std::string& path, std::span<const int> values, std::string_view unit,
                         std::string_view about) {
-  write_dataset(file_->id, path, H5T_STD_I32LE, H5T_NATIVE_INT, values.data(), values.size(), true);
-  attribute(path, "unit", unit);
-  attribute(path, "description", about);
+  const hsize_t extent[] = {values.size()};
+  write_dataset(file_->id, path, H5T_STD_I32LE, H5T_NATIVE_INT, values.data(), extent, true);
+  describe(path, unit, about);
+}
+
+void Hdf5Image::dataset(const std::string& path, std::span<const std::int64_t> values, std::string_view unit,
+                        std::string_view about) {
+  const hsize_t extent[] = {values.size()};
+  write_dataset(file_->id, path, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), extent, true);
+  describe(path, unit, about);
 }
 
 void Hdf5Image::dataset(const std::string& path, std::span<const std::string> values, std::string_view about) {
   const Handle type = utf8_string_type();
-  write_dataset(file_->id, path, type, type, c_strings(values).data(), values.size(), false);
-  attribute(path, "unit", "");
-  attribute(path, "description", about);
+  const hsize_t extent[] = {values.size()};
+  write_dataset(file_->id, path, type, type, c_strings(values).data(), extent, false);
+  describe(path, "", about);
+}
+
+void Hdf5Image::truths(const std::string& path, std::span<const std::int8_t> values, std::string_view about) {
+  const Handle type = truth_type();
+  const hsize_t extent[] = {values.size()};
+  write_dataset(file_->id, path, type, type, values.data(), extent, false);
+  describe(path, "", about);
+}
+
+void Hdf5Image::matrix(const std::string& path, std::span<const double> values, std::size_t columns,
+                       std::string_view unit, std::string_view about) {
+  const hsize_t extents[] = {values.size() / columns, columns};
+  write_dataset(file_->id, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), extents, true);
+  describe(path, unit, about);
 }
 
 void Hdf5Image::scalar(const std::string& path, double value, std::string_view unit, std::string_view about) {
-  const std::string doing = "writing " + path;
-  {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, doing);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, doing);
-    check(H5Pset_obj_track_times(creation, false), doing);
-    const Handle dataset(H5Dcreate2(file_->id, path.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                         H5Dclose, doing);
-    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value), doing);
-  }
-  attribute(path, "unit", unit);
-  attribute(path, "description", about);
+  write_dataset(file_->id, path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value, {}, false);
+  describe(path, unit, about);
+}
+
+void Hdf5Image::scalar(const std::string& path, std::int64_t value, std::string_view unit, std::string_view about) {
+  write_dataset(file_->id, path, H5T_STD_I64LE, H5T_NATIVE_INT64, &value, {}, false);
+  describe(path, unit, about);
+}
+
+void Hdf5Image::scalar(const std::string& path, const std::string& value, std::string_view about) {
+  const Handle type = utf8_string_type();
+  const char* pointer = value.c_str();
+  write_dataset(file_->id, path, type, type, &pointer, {}, false);
+  describe(path, "", about);
+}
+
+void Hdf5Image::truth(const std::string& path, bool value, std::string_view about) {
+  const Handle type = truth_type();
+  const std::int8_t byte = value;
+  write_dataset(file_->id, path, type, type, &byte, {}, false);
+  describe(path, "", about);
 }
 
 void Hdf5Image::attribute(const std::string& path, std::string_view name, double value) {

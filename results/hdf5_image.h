@@ -34,8 +34,19 @@ class Hdf5Image {
   void dataset(const std::string& path, std::span<const double> values, std::string_view unit, std::string_view about);
   void dataset(const std::string& path, std::span<const int> values, std::string_view unit, std::string_view about);
   void dataset(const std::string& path, std::span<const std::string> values, std::string_view about);
+  void dataset(const std::string& path, std::span<const std::int64_t> values, std::string_view unit,
+               std::string_view about);
+  /// Yes and no as h5py writes and reads booleans: an enumeration of FALSE and TRUE; likewise truth() without
+  /// dimension.
+  void truths(const std::string& path, std::span<const std::int8_t> values, std::string_view about);
+  /// Rows of `columns` values each, one row after the other; `columns` is positive.
+  void matrix(const std::string& path, std::span<const double> values, std::size_t columns, std::string_view unit,
+              std::string_view about);
   /// A dataset without dimension.
   void scalar(const std::string& path, double value, std::string_view unit, std::string_view about);
+  void scalar(const std::string& path, std::int64_t value, std::string_view unit, std::string_view about);
+  void scalar(const std::string& path, const std::string& value, std::string_view about);
+  void truth(const std::string& path, bool value, std::string_view about);
 
   void attribute(const std::string& path, std::string_view name, double value);
   void attribute(const std::string& path, std::string_view name, std::int64_t value);
@@ -46,6 +57,8 @@ class Hdf5Image {
   std::vector<char> bytes() const;
 
  private:
+  void describe(const std::string& path, std::string_view unit, std::string_view about);
+
   struct File;
   std::unique_ptr<File> file_;
 };

@@ -3,6 +3,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "sim/scene/scene_io.h"
@@ -43,6 +44,8 @@ Hdf5Source::~Hdf5Source() {
   if (file_->id >= 0) H5Fclose(file_->id);
 }
 
+const std::string& Hdf5Source::name() const { return file_->name; }
+
 std::vector<std::string> Hdf5Source::children(const std::string& path) const {
   std::vector<std::string> names;
   const Closer group{H5Gopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Gclose};
@@ -58,6 +61,35 @@ std::vector<std::string> Hdf5Source::children(const std::string& path) const {
     H5Literate(group.id, H5_INDEX_NAME, H5_ITER_INC, &at, take, &names);
   }
   return names;
+}
+
+Hdf5Kind Hdf5Source::kind(const std::string& path) const {
+  if (path != "/" && H5Lexists(file_->id, path.c_str(), H5P_DEFAULT) <= 0) return Hdf5Kind::nothing;
+  const Closer object{H5Oopen(file_->id, path.c_str(), H5P_DEFAULT), H5Oclose};
+  if (object.id < 0) return Hdf5Kind::nothing;
+  if (H5Iget_type(object.id) != H5I_DATASET) return Hdf5Kind::group;
+  const Closer type{H5Dget_type(object.id), H5Tclose};
+  switch (H5Tget_class(type.id)) {
+    case H5T_FLOAT:
+      return Hdf5Kind::real;
+    case H5T_INTEGER:
+      return Hdf5Kind::integer;
+    case H5T_ENUM:
+      return Hdf5Kind::truth;
+    case H5T_STRING:
+      return Hdf5Kind::text;
+    default:
+      file_->refuse(path + " is of a type that beltlife does not write");
+  }
+}
+
+std::vector<std::size_t> Hdf5Source::extents(const std::string& path) const {
+  const Closer set{H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose};
+  if (set.id < 0) file_->refuse("has no " + path);
+  const Closer space{H5Dget_space(set.id), H5Sclose};
+  std::vector<hsize_t> sides(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.id), 0)));
+  if (!sides.empty()) H5Sget_simple_extent_dims(space.id, sides.data(), nullptr);
+  return {sides.begin(), sides.end()};
 }
 
 std::vector<double> Hdf5Source::numbers(const std::string& path) const {
@@ -108,6 +140,16 @@ std::vector<int> Hdf5Source::integers(const std::string& path) const {
   return out;
 }
 
+std::vector<std::int64_t> Hdf5Source::long_integers(const std::string& path) const {
+  const Closer set{H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), H5Dclose};
+  if (set.id < 0) file_->refuse("has no " + path);
+  const Closer space{H5Dget_space(set.id), H5Sclose};
+  std::vector<std::int64_t> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id)));
+  if (!values.empty() && H5Dread(set.id, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    file_->refuse(path + " cannot be read as integers");
+  return values;
+}
+
 double Hdf5Source::number(const std::string& path, std::string_view attribute) const {
   const Closer a{H5Aopen_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT, H5P_DEFAULT),
                  H5Aclose};
@@ -119,6 +161,17 @@ double Hdf5Source::number(const std::string& path, std::string_view attribute) c
 
 bool Hdf5Source::has(const std::string& path, std::string_view attribute) const {
   return H5Aexists_by_name(file_->id, path.c_str(), std::string(attribute).c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5Source::attributes(const std::string& path) const {
+  std::vector<std::string> names;
+  const auto take = [](hid_t, const char* name, const H5A_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->push_back(name);
+    return 0;
+  };
+  hsize_t at = 0;
+  H5Aiterate_by_name(file_->id, path.c_str(), H5_INDEX_NAME, H5_ITER_INC, &at, take, &names, H5P_DEFAULT);
+  return names;
 }
 
 std::int64_t Hdf5Source::integer(const std::string& path, std::string_view attribute) const {

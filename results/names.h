@@ -210,4 +210,25 @@ inline constexpr Dataset crossing_speed{"crank_rpm", "r/min", "where the order m
 inline constexpr Dataset crossing_mode{"mode", "", "name of the curve in the map"};
 inline constexpr Dataset crossing_near{"near", "", "range within 5 % of the speed; empty: none"};
 
+// Study files (study_file.h). PARAMETER and QUANTITY are the study's names, what is below /answer the driver's.
+inline constexpr std::string_view study = "study";  // value of root_kind; a result file of a run has no such attribute
+inline constexpr std::string_view root_kind = "kind";
+inline constexpr std::string_view root_driver = "driver";
+inline constexpr std::string_view root_study_path = "study_path";
+inline constexpr std::string_view root_study_text = "study_text";
+inline constexpr std::string_view root_lanes = "lanes";
+inline constexpr std::string_view points = "/points";
+inline constexpr std::string_view parameters = "/points/parameters";  // /points/parameters/PARAMETER
+inline constexpr std::string_view quantities = "/points/quantities";  // /points/quantities/QUANTITY
+inline constexpr std::string_view answer = "/answer";
+inline constexpr Dataset point_number{"number", "", "from 0, in the order in which the driver asked for the points"};
+inline constexpr Dataset point_state{"state", "", "ok, infeasible, diverged, timed_out or failed"};
+inline constexpr Dataset point_reason{"reason", "", "why a point is not ok, in words; empty if it is"};
+inline constexpr Dataset point_processor_s{"processor_s", "s", "processor time that the point took"};
+
+// Marks of JSON in groups (json_group.h).
+inline constexpr std::string_view json_table = "table";
+inline constexpr std::string_view json_list = "list";
+inline constexpr std::string_view json_text = "json";
+
 }  // namespace beltlife::names

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "results/table.h"
+#include "sim/eval/quantities.h"
 
 namespace beltlife {
 namespace {

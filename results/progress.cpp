@@ -9,8 +9,13 @@
 
 namespace beltlife {
 
-Progress::Progress(std::string what, double total, std::string unit, bool quiet)
-    : what_(std::move(what)), unit_(std::move(unit)), total_(total), quiet_(quiet), terminal_(isatty(2)) {
+Progress::Progress(std::string what, double total, std::string unit, bool quiet, int digits)
+    : what_(std::move(what)),
+      unit_(std::move(unit)),
+      total_(total),
+      digits_(digits),
+      quiet_(quiet),
+      terminal_(isatty(2)) {
   start_ = last_ = std::chrono::steady_clock::now();
 }
 
@@ -26,8 +31,8 @@ void Progress::operator()(double done) {
   shown_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const int left = static_cast<int>(std::lround(elapsed * (total_ - done) / done));
-  fmt::print(stderr, "{}{}: {:.1f} of {:.1f} {}, {}:{:02} left{}", terminal_ ? "\r\033[K" : "", what_, done, total_,
-             unit_, left / 60, left % 60, terminal_ ? "" : "\n");
+  fmt::print(stderr, "{}{}: {:.{}f} of {:.{}f} {}, {}:{:02} left{}", terminal_ ? "\r\033[K" : "", what_, done, digits_,
+             total_, digits_, unit_, left / 60, left % 60, terminal_ ? "" : "\n");
   std::fflush(stderr);
 }
 

@@ -10,13 +10,14 @@ namespace beltlife {
 /// seconds.
 class Progress {
  public:
-  Progress(std::string what, double total, std::string unit, bool quiet);
+  Progress(std::string what, double total, std::string unit, bool quiet, int digits = 1);
   ~Progress();
   void operator()(double done);
 
  private:
   std::string what_, unit_;
   double total_;
+  int digits_;
   bool quiet_, terminal_, shown_ = false;
   std::chrono::steady_clock::time_point start_, last_;
 };

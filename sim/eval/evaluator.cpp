@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <ctime>
 #include <map>
 #include <mutex>
 
 #include "sim/eval/parallel_for.h"
+#include "sim/eval/point.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/eval/settling.h"
 #include "sim/lanes/run_pack.h"
@@ -41,6 +44,7 @@ std::string pack_key(const Task& t) {
 
 RangeResult result_of(const Model& model, const RunPlan& plan, RunRecord&& record) {
   RangeResult r;
+  r.name = plan.name;
   r.status = record.status;
   r.step_s = record.step_s;
   r.simulated_s = record.simulated_s;
@@ -69,6 +73,22 @@ std::vector<RunOutcome> run_tasks(const std::vector<Task*>& tasks, const Evaluat
   return run_pack(members, o.use, options);
 }
 
+// Of this thread, so that what others run beside it does not count.
+double processor_s() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+std::string over_budget(const Model& model, const std::vector<RunPlan>& plans, std::optional<double> budget) {
+  if (!budget) return "";
+  for (const RunPlan& plan : plans)
+    if (const double steps = plan.end_s / run_step(model); steps > *budget)
+      return fmt::format("range {} needs {:.3g} steps of {:.3g} s, more than the budget of {:.3g}", plan.name, steps,
+                         run_step(model), *budget);
+  return "";
+}
+
 // Once more at half the step, which a failure of the step itself survives.
 RangeResult retry(const Task& t, const EvaluatorOptions& o) {
   SceneSpec scene = t.model->scene;
@@ -92,15 +112,17 @@ std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const Evaluat
       packs.emplace_back(group.begin() + static_cast<std::ptrdiff_t>(i),
                          group.begin() + static_cast<std::ptrdiff_t>(std::min(i + size, group.size())));
   }
-  std::stable_sort(packs.begin(), packs.end(), [](const auto& a, const auto& b) {
-    return a.front()->plan.end_s * static_cast<double>(a.front()->model->belt.nodes) >
-           b.front()->plan.end_s * static_cast<double>(b.front()->model->belt.nodes);
-  });
+  const auto cost = [](const std::vector<Task*>& pack) {
+    const Model& m = *pack.front()->model;
+    return pack.front()->plan.end_s / run_step(m) * static_cast<double>(m.belt.nodes);
+  };
+  std::stable_sort(packs.begin(), packs.end(), [&](const auto& a, const auto& b) { return cost(a) > cost(b); });
   return packs;
 }
 
 void finish(const SceneSpec& scene, const std::vector<std::string>& names, PointResult& point) {
   std::vector<RangeLoad> loads;
+  std::vector<RangeSummary> summaries;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const RangeResult& r = *point.ranges[i];
     if (!r.summary.name.empty())  // else it failed before its window
@@ -109,8 +131,10 @@ void finish(const SceneSpec& scene, const std::vector<std::string>& names, Point
     load.name = names[i];
     for (const RangeSpec& range : scene.range)
       if (range.name == names[i]) load.duty_share = range.duty_share;
-    const RangeLife life = range_life(load, scene.fatigue);
-    if (r.ok()) point.quantities.push_back({names[i] + ".life_h", life.life_h});
+    if (r.ok()) {
+      for (Quantity& q : quantities_of(load, range_life(load, scene.fatigue))) point.quantities.push_back(std::move(q));
+      summaries.push_back(r.summary);
+    }
     loads.push_back(std::move(load));
   }
   if (!point.ok()) {
@@ -119,8 +143,7 @@ void finish(const SceneSpec& scene, const std::vector<std::string>& names, Point
     return;
   }
   point.life = duty_cycle_life(loads, scene.fatigue);
-  point.quantities.push_back({"life_h", point.life.life_h});
-  point.quantities.push_back({"log10_life_h", point.life.log10_life_h});
+  for (Quantity& q : duty_quantities(summaries, point.life)) point.quantities.push_back(std::move(q));
 }
 
 }  // namespace
@@ -158,6 +181,8 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
       results[i].problems = bad.problems();
       continue;
     }
+    results[i].over_budget = over_budget(*model, plans, options_.step_budget);
+    if (!results[i].over_budget.empty()) continue;
     for (const RunPlan& plan : plans) {
       names[i].push_back(plan.name);
       keys[i].push_back(simulation_key(points[i], plan.name));
@@ -182,13 +207,14 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   }
 
   std::mutex mutex;
+  std::atomic<bool> lost = false;
   const auto complete = [&](std::size_t i) {
     for (const std::string& key : keys[i]) results[i].ranges.push_back(memo_.at(key));
     finish(points[i], names[i], results[i]);
     if (on_finished) on_finished(i, results[i]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!results[i].problems.empty()) {
+    if (names[i].empty()) {  // refused
       if (on_finished) on_finished(i, results[i]);
     } else if (missing[i] == 0) {
       complete(i);
@@ -196,21 +222,32 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   }
   auto packs = packs_of(tasks, options_);
   parallel_for(static_cast<int>(packs.size()), options_.threads, [&](int p) {
+    if (stop_requested() || lost) return;
     const auto& pack = packs[static_cast<std::size_t>(p)];
+    const double begun = processor_s();
     auto outcomes = run_tasks(pack, options_);
+    const double share = (processor_s() - begun) / static_cast<double>(pack.size());
     for (std::size_t k = 0; k < pack.size(); ++k) {
       Task& t = *pack[k];
       auto result = std::make_shared<RangeResult>(result_of(*t.model, t.plan, std::move(outcomes[k].record)));
+      const double before = processor_s();
       if (!result->ok() && options_.retry) *result = retry(t, options_);
+      result->processor_s = share + processor_s() - before;
       t.result = std::move(result);
     }
     const std::lock_guard lock(mutex);
-    for (Task* t : pack) {
-      memo_[t->key] = t->result;
-      for (std::size_t i : t->points)
-        if (--missing[i] == 0) complete(i);
+    try {
+      for (Task* t : pack) {
+        memo_[t->key] = t->result;
+        for (std::size_t i : t->points)
+          if (--missing[i] == 0) complete(i);
+      }
+    } catch (...) {
+      lost = true;  // nobody keeps the results: no use in making more
+      throw;
     }
   });
+  if (std::any_of(missing.begin(), missing.end(), [](std::size_t m) { return m > 0; })) throw Interrupted();
   return results;
 }
 

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "sim/eval/summary.h"
+#include "sim/eval/quantities.h"
 #include "sim/lanes/lane_belt.h"
 #include "sim/life/life.h"
 #include "sim/plan.h"
@@ -19,11 +19,13 @@ namespace beltlife {
 
 /// What a simulation of one range gave; stresses and life are not in it, they cost nothing.
 struct RangeResult {
+  std::string name;
   RunStatus status;
   RangeSummary summary;
   RangeLoad load;
   double step_s = 0;
   double simulated_s = 0;
+  double processor_s = 0;                 ///< what it cost: its part of its pack's, retry included
   std::optional<double> settling_change;  ///< with early end: largest change between the last two stretches
   bool retried = false;                   ///< at half the step, after it had failed
 
@@ -32,7 +34,8 @@ struct RangeResult {
 
 struct PointResult {
   std::vector<Problem> problems;                           ///< why the drive cannot be built; empty if it can
-  std::vector<std::shared_ptr<const RangeResult>> ranges;  ///< in the scene's order; empty if it cannot be built
+  std::string over_budget;                                 ///< in words, if a range needs more steps than allowed
+  std::vector<std::shared_ptr<const RangeResult>> ranges;  ///< in the scene's order; empty if none was run
   Life life;                         ///< over the ranges, with the point's own fatigue data and shares
   std::vector<Quantity> quantities;  ///< as quantity_names lists them
 
@@ -45,8 +48,9 @@ struct EvaluatorOptions {
   /// Drives share lanes (throughput), or each has all eight (latency). Both agree within the noise floor, not to the
   /// bit: a study keeps to one.
   LaneUse use = LaneUse::drives;
-  bool retry = true;                ///< a failed range runs once more at half its step
-  std::vector<std::string> ranges;  ///< names; empty: all
+  bool retry = true;                  ///< a failed range runs once more at half its step
+  std::vector<std::string> ranges;    ///< names; empty: all
+  std::optional<double> step_budget;  ///< a drive of which a range needs more steps is not run
   const MeasuredSpeed* measured = nullptr;
 };
 
@@ -58,7 +62,8 @@ class Evaluator {
   explicit Evaluator(EvaluatorOptions options) : options_(std::move(options)) {}
 
   /// `on_finished` gets a point's index and result as soon as it is whole, from any thread, one at a time, in no
-  /// particular order; it may be empty. Scenes are valid (read_scene or validate).
+  /// particular order; it may be empty. Scenes are valid (read_scene or validate). After request_stop() no pack is
+  /// begun, and Interrupted is thrown unless all were.
   std::vector<PointResult> evaluate(const std::vector<SceneSpec>& points,
                                     const std::function<void(std::size_t, const PointResult&)>& on_finished = {});
 

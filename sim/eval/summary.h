@@ -1,4 +1,4 @@
-// Owns the reduction of an evaluated window to named numbers: what tables, JSON and drivers read.
+// Owns the reduction of an evaluated window to the numbers that tables, JSON and drivers read.
 #pragma once
 
 #include <optional>
@@ -57,17 +57,5 @@ struct RangeSummary {
 };
 
 RangeSummary summarise(const Model& model, const RunRecord& run, const WindowRecord& window);
-
-/// A named number, "B100.drive_shaft.speed_rpm.order_3"; units stand in the names.
-struct Quantity {
-  std::string name;
-  double value = 0;
-};
-
-/// Every quantity of a summary, in a fixed order that depends on the scene alone.
-std::vector<Quantity> quantities_of(const RangeSummary& summary);
-
-/// Names of all quantities of a scene: those of every range, each range's life, and the duty cycle's.
-std::vector<std::string> quantity_names(const Model& model);
 
 }  // namespace beltlife

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "sim/eval/evaluator.h"
-#include "sim/eval/summary.h"
+#include "sim/eval/quantities.h"
 #include "tests/bench/target_drives.h"
 
 namespace beltlife::bench {

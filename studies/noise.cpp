@@ -1,0 +1,95 @@
+// Noise from values: see noise.h.
+#include "studies/noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace beltlife {
+namespace {
+
+/// Sum of squares about the mean.
+double scatter(const std::vector<double>& v, const std::vector<std::size_t>& at, std::size_t from, std::size_t to) {
+  double mean = 0, sum = 0;
+  for (std::size_t i = from; i < to; ++i) mean += v[at[i]] / static_cast<double>(to - from);
+  for (std::size_t i = from; i < to; ++i) sum += (v[at[i]] - mean) * (v[at[i]] - mean);
+  return sum;
+}
+
+void split(const std::vector<double>& v, const std::vector<std::size_t>& sorted, std::size_t from, std::size_t to,
+           double resolution, std::vector<Response>& out) {
+  std::size_t cut = 0;
+  double widest = 0;
+  for (std::size_t i = from + 2; i + 2 <= to; ++i)
+    if (const double gap = v[sorted[i]] - v[sorted[i - 1]]; gap > widest) {
+      widest = gap;
+      cut = i;
+    }
+  if (cut > 0) {
+    const double inside = std::sqrt((scatter(v, sorted, from, cut) + scatter(v, sorted, cut, to)) /
+                                    static_cast<double>(std::max<std::size_t>(to - from - 2, 1)));
+    const double largest = std::max(std::abs(v[sorted[from]]), std::abs(v[sorted[to - 1]]));
+    if (widest > 4 * inside && widest > resolution * largest) {
+      split(v, sorted, from, cut, resolution, out);
+      split(v, sorted, cut, to, resolution, out);
+      return;
+    }
+  }
+  Response r;
+  for (std::size_t i = from; i < to; ++i) {
+    r.members.push_back(sorted[i]);
+    r.mean += v[sorted[i]] / static_cast<double>(to - from);
+  }
+  std::sort(r.members.begin(), r.members.end());
+  out.push_back(std::move(r));
+}
+
+}  // namespace
+
+DifferenceNoise difference_noise(const std::vector<double>& values) {
+  DifferenceNoise out;
+  std::vector<double> column = values;
+  std::vector<bool> changes_sign;
+  double gamma = 1;
+  for (int k = 1; column.size() > 1; ++k) {
+    for (std::size_t i = 0; i + 1 < column.size(); ++i) column[i] = column[i + 1] - column[i];
+    column.pop_back();
+    gamma *= 0.5 * k / (2.0 * k - 1);  // (k!)^2 / (2k)!: turns the variance of a difference into the values'
+    double mean_square = 0;
+    for (double d : column) mean_square += d * d / static_cast<double>(column.size());
+    out.levels.push_back(std::sqrt(gamma * mean_square));
+    const auto [low, high] = std::minmax_element(column.begin(), column.end());
+    changes_sign.push_back(*low * *high < 0);
+  }
+  for (std::size_t k = 0; k + 2 < out.levels.size() && out.order == 0; ++k) {
+    const auto [low, high] = std::minmax({out.levels[k], out.levels[k + 1], out.levels[k + 2]});
+    if (high <= 4 * low && changes_sign[k]) out.order = static_cast<int>(k) + 1;
+  }
+  out.noise = out.order > 0 ? out.levels[static_cast<std::size_t>(out.order) - 1]
+                            : *std::min_element(out.levels.begin(), out.levels.end());
+  return out;
+}
+
+std::vector<Response> responses_of(const std::vector<double>& values, double resolution) {
+  std::vector<std::size_t> sorted(values.size());
+  std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+  std::stable_sort(sorted.begin(), sorted.end(), [&](auto a, auto b) { return values[a] < values[b]; });
+  std::vector<Response> out;
+  if (!values.empty()) split(values, sorted, 0, values.size(), resolution, out);
+  return out;
+}
+
+Spread spread_of(const std::vector<double>& values) {
+  Spread s;
+  if (values.empty()) return s;
+  const auto n = static_cast<double>(values.size());
+  for (double v : values) s.mean += v / n;
+  double sum = 0;
+  for (double v : values) sum += (v - s.mean) * (v - s.mean);
+  s.standard_deviation = values.size() > 1 ? std::sqrt(sum / (n - 1)) : 0;
+  s.low = *std::min_element(values.begin(), values.end());
+  s.high = *std::max_element(values.begin(), values.end());
+  return s;
+}
+
+}  // namespace beltlife
