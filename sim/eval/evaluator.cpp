@@ -31,9 +31,9 @@ struct Task {
 /// What lanes have in common: whoever differs here cannot run in lockstep.
 std::string pack_key(const Task& t) {
   const Model& m = *t.model;
-  std::string key = fmt::format("{} {} {:a} {:a} {:a} {} {} {} {} {}", enum_name(m.scene.solver.scheme), m.belt.nodes,
+  std::string key = fmt::format("{} {} {:a} {:a} {:a} {} {} {} {}", enum_name(m.scene.solver.scheme), m.belt.nodes,
                                 run_step(m), m.scene.solver.sample_rate_hz, t.plan.end_s, m.pulleys, m.bodies,
-                                m.tensioner.pulley, m.driver.body, t.plan.name);
+                                m.tensioner.pulley, m.driver.body);
   if (t.plan.settled_within) key += fmt::format(" {:a}", *t.plan.settled_within);
   for (const Kernel& k : force_program(m)) key += fmt::format(" {}", k.name);
   // Early end reads all records of a pack by the names of its first drive.
@@ -120,6 +120,16 @@ std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const Evaluat
   return packs;
 }
 
+// A run may be another range's of the same speed.
+std::shared_ptr<const RangeResult> named(const std::shared_ptr<const RangeResult>& result, const std::string& name) {
+  if (result->name == name) return result;
+  auto copy = std::make_shared<RangeResult>(*result);
+  copy->name = copy->load.name = name;
+  if (!copy->summary.name.empty()) copy->summary.name = name;
+  copy->processor_s = 0;
+  return copy;
+}
+
 void finish(const SceneSpec& scene, const std::vector<std::string>& names, PointResult& point) {
   std::vector<RangeLoad> loads;
   std::vector<RangeSummary> summaries;
@@ -160,8 +170,11 @@ std::string simulation_key(const SceneSpec& scene, const std::string& range) {
   // The predicted step of the explicit schemes looks at the fastest range.
   if (scene.solver.step_s || scene.solver.scheme == Scheme::linearly_implicit)
     std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
-  for (RangeSpec& r : seen.range) r.duty_share = 0;
-  return range + "\n" + write_scene(seen);
+  for (RangeSpec& r : seen.range) {
+    r.duty_share = 0;
+    if (seen.range.size() == 1) r.name = "any";  // two ranges of one speed are one run
+  }
+  return (seen.range.size() == 1 ? "" : range + "\n") + write_scene(seen);
 }
 
 std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
@@ -209,7 +222,8 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   std::mutex mutex;
   std::atomic<bool> lost = false;
   const auto complete = [&](std::size_t i) {
-    for (const std::string& key : keys[i]) results[i].ranges.push_back(memo_.at(key));
+    for (std::size_t r = 0; r < keys[i].size(); ++r)
+      results[i].ranges.push_back(named(memo_.at(keys[i][r]), names[i][r]));
     finish(points[i], names[i], results[i]);
     if (on_finished) on_finished(i, results[i]);
   };
