@@ -1,58 +1,23 @@
 // The report page: see report.h.
 #include "results/report.h"
 
-#include <fmt/format.h>
-
-#include "results/html.h"
+#include "results/page.h"
 #include "results/report_sections.h"
 
 namespace beltlife {
-namespace {
-
-constexpr const char* style = R"(
-:root{color-scheme:light}body{font:16px/1.5 system-ui,Helvetica,sans-serif;color:#222;max-width:1040px;margin:0 auto;padding:1rem}
-h1{font-size:1.6rem;margin:.2rem 0}h2{margin-top:2.2rem;border-bottom:2px solid #0b61a4}h3{font-size:1rem;margin:1.2rem 0 .3rem}
-.lead{font-size:1.15rem}nav{font-size:.9rem;margin:.4rem 0 1rem}nav a{color:#0b61a4;margin-right:.9rem;white-space:nowrap}
-table{border-collapse:separate;border-spacing:0;margin:.5rem 0 .8rem;font-size:.88rem;font-variant-numeric:tabular-nums}
-th,td{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}th{vertical-align:bottom;white-space:normal}
-th.w,td.w{text-align:left}td:first-child{position:sticky;left:0;background:#fff}.alarm{color:#b00020;font-weight:bold}.scroll{overflow-x:auto}tbody tr:hover{background:#f3f7fa}
-#statics-tensions td+td,[id^=modes-rotational] td:last-child{white-space:normal}#life-pulleys{font-size:.82rem}#life-pulleys th,#life-pulleys td{padding:.15rem .5rem}
-#key-numbers td,#provenance-table td{text-align:left}#key-numbers td{white-space:normal}#provenance-table td+td{white-space:normal;overflow-wrap:anywhere}
-figure{margin:.5rem 0}figure svg{max-width:100%;height:auto}figcaption{font-size:.88rem;color:#555}
-.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:.5rem}
-details>summary{cursor:pointer;font-weight:bold;padding:.4rem 0}pre{overflow-x:auto;font-size:.8rem;background:#f6f6f6;padding:.5rem}
-@media print{details{display:block}details>*{display:block}nav{display:none}})";
-
-struct Section {
-  const char* id;
-  const char* title;  // in the list of links; the page's own first section has none
-  std::string html;
-};
-
-}  // namespace
 
 std::string report_html(const ResultFile& file, const std::string& name) {
   const Subject s = subject_of(file, name);
-  const std::string title = html_escaped(s.model.scene.title.empty() ? name : s.model.scene.title);
-  const Section sections[] = {{"summary", "", summary_section(s)},
-                              {"layout", "Layout", layout_section(s)},
-                              {"life", "Life", life_section(s)},
-                              {"statics", "Statics", statics_section(s)},
-                              {"modes", "Modes", modes_section(s)},
-                              {"losses", "Power and losses", losses_section(s)},
-                              {"ranges", "Ranges", ranges_section(s)},
-                              {"warnings", "Warnings", warnings_section(s)},
-                              {"provenance", "How these numbers came about", provenance_section(s)}};
-  std::string links, body;
-  for (const Section& section : sections) {
-    if (*section.title && !section.html.empty())
-      links += fmt::format("<a href=\"#{}\">{}</a> ", section.id, section.title);
-    body += section.html;
-  }
-  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-         "content=\"width=device-width, initial-scale=1\">\n<title>" +
-         title + "</title>\n<style>" + style + "</style></head><body>\n<h1>" + title + "</h1>\n<nav>" + links +
-         "</nav>\n" + body + "</body></html>\n";
+  return page_html(s.model.scene.title.empty() ? name : s.model.scene.title,
+                   {{"summary", "", summary_section(s)},
+                    {"layout", "Layout", layout_section(s)},
+                    {"life", "Life", life_section(s)},
+                    {"statics", "Statics", statics_section(s)},
+                    {"modes", "Modes", modes_section(s)},
+                    {"losses", "Power and losses", losses_section(s)},
+                    {"ranges", "Ranges", ranges_section(s)},
+                    {"warnings", "Warnings", warnings_section(s)},
+                    {"provenance", "How these numbers came about", provenance_section(s)}});
 }
 
 }  // namespace beltlife

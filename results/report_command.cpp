@@ -1,4 +1,4 @@
-// The command report: from a result file to a page.
+// The command report: from a result file or a study to a page.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,15 +7,28 @@
 #include "results/commands.h"
 #include "results/report.h"
 #include "results/results_file.h"
+#include "results/study_file.h"
+#include "results/study_page.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
+namespace {
+
+/// NAME.html beside NAME.h5, NAME.jsonl or NAME.jsonl.gz.
+std::string page_beside(const std::string& input) {
+  std::filesystem::path path = input;
+  if (path.extension() == ".gz") path.replace_extension();
+  return path.replace_extension(".html").string();
+}
+
+}  // namespace
 
 int run_report(const CommandOptions& o) {
   const std::string& input = o.scenes.at(0);
-  const std::string output = o.out.empty() ? std::filesystem::path(input).replace_extension(".html").string() : o.out;
+  const std::string output = o.out.empty() ? page_beside(input) : o.out;
   check_writable(output);
-  const std::string page = report_html(read_results(input), input);
+  const std::string page =
+      is_study(input) ? study_html(read_study_record(input), input) : report_html(read_results(input), input);
   if (!(std::ofstream(output) << page << std::flush))
     throw BadInput({Problem{output, 0, "", "cannot be written", "free space on the disk, or a path elsewhere"}});
   if (!o.quiet) fmt::print("wrote {}\n", output);

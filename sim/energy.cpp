@@ -13,7 +13,7 @@ double driver_power(const DriveView& s) {
   if (d < 0) return 0;
   const double speed = s.state().q.speed[d];
   if (!m.prescribed()) return s.work().driver_torque * speed;
-  const double needed = m.inertia[d] * m.sense[d] * s.profile().at(s.time()).acceleration - s.work().torque[d];
+  const double needed = m.inertia[d] * m.sense[d] * s.profile().at(s.state_time()).acceleration - s.work().torque[d];
   return needed * speed;
 }
 

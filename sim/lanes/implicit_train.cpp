@@ -164,6 +164,17 @@ void ImplicitTrain::advance_group(BodyGroup& g, State& state, double time, const
   }
 }
 
+// A pulley on its own has the belt's torque alone, which holds over the step: substeps would change nothing.
+void ImplicitTrain::advance_free(int b, Coordinates& q, const double* belt_torque) {
+  double change = 0;
+  if (model_.inverse_inertia[b] != 0)
+    change = step_ * (b < model_.pulleys ? belt_torque[b] : 0.0) * model_.inverse_inertia[b];
+  else if (b == model_.driver.body && model_.prescribed())
+    change = given_ - q.speed[b];
+  q.angle[b] += step_ * (q.speed[b] + 0.5 * change);
+  q.speed[b] += change;
+}
+
 void ImplicitTrain::advance_arm(State& state, const double* hub_x, const double* hub_y) {
   const TensionerModel& t = model_.tensioner;
   Coordinates& q = state.q;
@@ -196,7 +207,12 @@ void ImplicitTrain::advance(State& state, double time, const double* belt_torque
                             const double* hub_y) {
   Coordinates& q = state.q;
   for (int b = 0; b < model_.bodies; ++b) change_[b] = -q.speed[b];
-  for (BodyGroup& g : groups_) advance_group(g, state, time, belt_torque);
+  for (BodyGroup& g : groups_) {
+    if (g.free())
+      advance_free(g.bodies.front(), q, belt_torque);
+    else
+      advance_group(g, state, time, belt_torque);
+  }
   for (int b = 0; b < model_.bodies; ++b) change_[b] += q.speed[b];
   if (model_.tensioner.pulley >= 0 && !model_.tensioner.locked) advance_arm(state, hub_x, hub_y);
 }

@@ -16,6 +16,9 @@ struct BodyGroup {
   bool pid = false;
   std::uint64_t status = 0;     ///< which teeth touch and which clutches carry, of the factors below
   std::vector<double> inverse;  ///< of the step's matrix, row by row; empty: not yet computed
+
+  /// A body that nothing but the belt acts on.
+  bool free() const { return springs.empty() && gears.empty() && tables.empty() && !pid; }
 };
 
 /// Advances bodies from t_n - h/2 to t_n + h/2 under the belt's torques at t_n, by substeps short enough for teeth that
@@ -35,6 +38,7 @@ class ImplicitTrain {
 
  private:
   void advance_group(BodyGroup& g, State& state, double time, const double* belt_torque);
+  void advance_free(int body, Coordinates& q, const double* belt_torque);
   void advance_arm(State& state, const double* hub_x, const double* hub_y);
   void factor(BodyGroup& g) const;
 

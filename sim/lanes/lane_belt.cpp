@@ -44,13 +44,13 @@ LaneBelt make_lane_belt(const std::vector<const Model*>& drives, LaneUse use, do
     b.axial_tangent[k] = 0.25 * step * step * b.axial_stiffness[k] + weight * step * b.axial_damping[k];
     b.turning_tension[k] = 0.25 * step * step * b.axial_stiffness[k] + (weight - 0.5) * step * b.axial_damping[k];
     b.bend_tangent[k] = 0.25 * step * step * b.bend_stiffness[k] + 0.5 * step * b.bend_damping[k];
-    b.contact_stiffness[k] = m.contact.stiffness;
-    b.contact_damping[k] = m.contact.damping;
-    b.separation_damping[k] = m.contact.separation_damping;
-    b.friction_stiffness[k] = m.contact.friction_stiffness;
-    b.inverse_friction_stiffness[k] = 1 / m.contact.friction_stiffness;
-    b.friction_speed[k] = m.contact.friction_speed;
-    b.anchor_share[k] = m.contact.anchor_share;
+    b.law.mass[k] = m.belt.node_mass;
+    b.law.stiffness[k] = m.contact.stiffness;
+    b.law.damping[k] = m.contact.damping;
+    b.law.separation_damping[k] = m.contact.separation_damping;
+    b.law.friction_stiffness[k] = m.contact.friction_stiffness;
+    b.law.inverse_friction_stiffness[k] = 1 / m.contact.friction_stiffness;
+    b.law.friction_speed[k] = m.contact.friction_speed;
   }
   for (LaneArray* a : {&b.x,
                        &b.y,

@@ -15,19 +15,25 @@ namespace beltlife {
 /// What the lanes hold: eight arcs of one belt (node j of lane k is belt node k rows + j) or eight drives.
 enum class LaneUse { arcs, drives };
 
-/// Rows in which every lane keeps its candidate pulley; -1: none.
+/// Pulley of each lane of a block.
+struct LanePulleys {
+  LaneNumber x, y, vx, vy;                  ///< centre, m, m/s
+  LaneNumber radius;                        ///< m; below zero where a lane has no candidate
+  LaneNumber anchor_limit, velocity_limit;  ///< friction coefficient's shares: beta mu, (1 - beta) mu
+};
+
+/// Rows in which every lane keeps its candidate pulley, numbered; as many as there are pulleys: none.
 struct ContactBlock {
   int begin = 0, end = 0;
   int pulley[lanes] = {};
+  bool on_arm = false;  ///< whether a lane's pulley is the one that moves
+  LanePulleys of;
 };
 
-/// Pulley of each lane of a block, gathered once a step.
-struct LanePulleys {
-  LaneNumber x, y, vx, vy;  ///< centre, m, m/s
-  LaneNumber radius;        ///< m; below zero where a lane has no candidate
-  LaneNumber speed;         ///< rad/s, half a step ago
-  LaneNumber speed_change;  ///< expected over this step, rad/s
-  LaneNumber friction;      ///< Coulomb coefficient
+/// Constants of contact and friction in each lane, SI units as in ContactModel.
+struct ContactLaw {
+  LaneNumber mass, stiffness, damping, separation_damping;
+  LaneNumber friction_stiffness, inverse_friction_stiffness, friction_speed;
 };
 
 struct LaneBelt {
@@ -37,11 +43,10 @@ struct LaneBelt {
   bool bending_damping = false, bending_stiffness = false;
   bool peaks = false;  ///< whether the largest contact forces are kept
 
-  // Constants of each lane, SI units as in BeltModel and ContactModel.
+  // Constants of each lane, SI units as in BeltModel.
   LaneNumber mass, length, axial_stiffness, axial_damping;  ///< m, l0, EA/l0, CA/l0
   LaneNumber bend_stiffness, bend_damping;                  ///< EI/l0, CI/l0
-  LaneNumber contact_stiffness, contact_damping, separation_damping;
-  LaneNumber friction_stiffness, inverse_friction_stiffness, friction_speed, anchor_share;
+  ContactLaw law;
   LaneNumber axial_tangent;    ///< h^2/4 EA/l0 + theta h CA/l0, kg
   LaneNumber turning_tension;  ///< h^2/4 EA/l0 + (theta - 1/2) h CA/l0, kg: times l w^2, see lane_elements.cpp
   LaneNumber bend_tangent;     ///< h^2/4 EI/l0 + h/2 CI/l0, kg m^2
@@ -80,8 +85,9 @@ void fill_lane_ghosts(LaneBelt& b);
 /// Forces of the belt's own elements on the nodes, and their tangents (thesis 2.28, 2.29).
 void lane_elements(LaneBelt& b);
 
-/// Contact and friction in a block (thesis 2.24-2.27): adds to the nodes' forces.
-void lane_contact(LaneBelt& b, int begin, int end, const LanePulleys& p);
+/// Contact and friction in all blocks (thesis 2.24-2.27): adds to the nodes' forces. Of every pulley, and behind the
+/// last of none: its speed half a step ago and the change expected over this step, rad/s.
+void lane_contact(LaneBelt& b, const LaneNumber* speeds, const LaneNumber* changes);
 
 /// Solves for the change of velocity of all nodes.
 void lane_solve(LaneBelt& b);
@@ -93,7 +99,9 @@ void lane_advance(LaneBelt& b);
 struct LaneLoads {
   LaneNumber x, y, moment;  ///< N, N m
 };
-/// Contact forces as the step really applied them, with their implicit parts; adds what the pulleys receive.
-void lane_reactions(LaneBelt& b, int begin, int end, LaneLoads& loads);
+/// Contact forces as the step really applied them, with their implicit parts; adds what the pulleys receive to `loads`,
+/// by pulley and then for none. Sums go on from block to block in each lane by itself, so that they do not depend on
+/// where mates end their blocks.
+void lane_reactions(LaneBelt& b, LaneLoads* loads);
 
 }  // namespace beltlife

@@ -57,6 +57,19 @@ BELTLIFE_VECTOR void nearest_pulleys(int rows, int pulleys, const LaneNumber& re
   }
 }
 
+// Elements' turn rates for the energy account, at t_n: the bending damper has done its work at the mean of the
+// velocities half a step before and after. Half a step later squares are larger, by what the mean takes off short
+// waves.
+BELTLIFE_VECTOR void damper_rates(int nodes, const double* dvx, const double* dvy, const double* ux, const double* uy,
+                                  const double* inverse_length, double* __restrict turn_rate) {
+  for (int i = -1; i < nodes; ++i)
+    turn_rate[i] -= 0.5 * (ux[i] * (dvy[i + 1] - dvy[i]) - uy[i] * (dvx[i + 1] - dvx[i])) * inverse_length[i];
+}
+
+BELTLIFE_VECTOR void back_by(double half, int nodes, const double* dv, const double* v, double* __restrict x) {
+  for (int i = 0; i < nodes; ++i) x[i] -= half * (v[i] + 0.25 * dv[i]);
+}
+
 }  // namespace
 
 LaneSimulator::LaneSimulator(const std::vector<LaneDrive>& drives, LaneUse use, double step)
@@ -86,10 +99,13 @@ LaneSimulator::LaneSimulator(const std::vector<LaneDrive>& drives, LaneUse use, 
   parts_ = parts_of(*models.front());
   near_.assign(static_cast<std::size_t>(belt_.rows) * lanes, -1);
   const int pulleys = models.front()->pulleys;
-  for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_, &radii_}) v->resize(pulleys);
+  for (auto* v : {&centre_x_, &centre_y_, &centre_vx_, &centre_vy_, &radii_, &speeds_, &changes_})
+    v->resize(pulleys + 1);
+  for (int k = 0; k < lanes; ++k) centre_x_.back()[k] = 1e3;  // none is far from every node: no distance is 0
+  last_change_x_ = last_change_y_ = NodeArray(nodes);
   gaps_.resize(near_.size());
   found_.resize(near_.size());
-  loads_.resize(pulleys);
+  loads_.resize(pulleys + 1);
 }
 
 void LaneSimulator::search() {
@@ -118,30 +134,59 @@ void LaneSimulator::search() {
   for (int j = 0; j < rows; ++j) {
     const int* row = near_.data() + static_cast<std::size_t>(j) * lanes;
     if (std::all_of(row, row + lanes, [](int p) { return p < 0; })) continue;
+    int wanted[lanes];
+    for (int k = 0; k < lanes; ++k) wanted[k] = row[k] >= 0 ? row[k] : pulleys;
     if (!belt_.blocks.empty() && belt_.blocks.back().end == j &&
-        std::equal(row, row + lanes, belt_.blocks.back().pulley)) {
+        std::equal(wanted, wanted + lanes, belt_.blocks.back().pulley)) {
       belt_.blocks.back().end = j + 1;
       continue;
     }
-    ContactBlock b{j, j + 1, {}};
-    std::copy(row, row + lanes, b.pulley);
-    belt_.blocks.push_back(b);
+    ContactBlock& b = belt_.blocks.emplace_back();
+    b.begin = j;
+    b.end = j + 1;
+    std::copy(wanted, wanted + lanes, b.pulley);
+    describe(b);
   }
 }
 
-void LaneSimulator::gather(const ContactBlock& block, LanePulleys& out) const {
+// What lasts until the next search of the pulleys of a block.
+void LaneSimulator::describe(ContactBlock& block) const {
+  const int none = drives_.front()->model->pulleys;
+  block.on_arm = false;
   for (int k = 0; k < lanes; ++k) {
     const int p = block.pulley[k];
+    const Model& m = *drive_of(k).model;
+    const bool any = p < none;
+    const double friction = any ? m.pulley_friction[p] : 0.0, share = m.contact.anchor_share;
+    block.of.radius[k] = any ? m.pulley_radius[p] : -1.0;
+    block.of.anchor_limit[k] = share * friction;
+    block.of.velocity_limit[k] = (1 - share) * friction;
+    block.of.x[k] = centre_x_[p][k];
+    block.of.y[k] = centre_y_[p][k];
+    block.of.vx[k] = centre_vx_[p][k];
+    block.of.vy[k] = centre_vy_[p][k];
+    block.on_arm = block.on_arm || (any && p == m.tensioner.pulley);
+  }
+}
+
+// Speeds of all pulleys, and the arm's place in the blocks at its pulley.
+void LaneSimulator::follow_pulleys() {
+  const int pulleys = drives_.front()->model->pulleys;
+  for (int k = 0; k < lanes; ++k) {
     const Drive& d = drive_of(k);
-    const int at = std::max(p, 0);
-    out.x[k] = centre_x_[at][k];
-    out.y[k] = centre_y_[at][k];
-    out.vx[k] = centre_vx_[at][k];
-    out.vy[k] = centre_vy_[at][k];
-    out.radius[k] = p >= 0 ? d.model->pulley_radius[p] : -1.0;
-    out.speed[k] = p >= 0 ? d.state.q.speed[p] : 0.0;
-    out.speed_change[k] = p >= 0 ? d.train.speed_change()[p] : 0.0;
-    out.friction[k] = p >= 0 ? d.model->pulley_friction[p] : 0.0;
+    for (int p = 0; p < pulleys; ++p) {
+      speeds_[p][k] = d.state.q.speed[p];
+      changes_[p][k] = d.train.speed_change()[p];
+    }
+  }
+  for (ContactBlock& b : belt_.blocks) {
+    if (!b.on_arm) continue;
+    for (int k = 0; k < lanes; ++k) {
+      b.of.x[k] = centre_x_[b.pulley[k]][k];
+      b.of.y[k] = centre_y_[b.pulley[k]][k];
+      b.of.vx[k] = centre_vx_[b.pulley[k]][k];
+      b.of.vy[k] = centre_vy_[b.pulley[k]][k];
+    }
   }
 }
 
@@ -180,34 +225,15 @@ void LaneSimulator::ghosts() { fill_lane_ghosts(belt_); }
 void LaneSimulator::elements() { lane_elements(belt_); }
 
 void LaneSimulator::contact() {
-  LanePulleys pulley;
-  for (const ContactBlock& b : belt_.blocks) {
-    gather(b, pulley);
-    lane_contact(belt_, b.begin, b.end, pulley);
-  }
+  follow_pulleys();
+  lane_contact(belt_, speeds_.data(), changes_.data());
 }
 
 void LaneSimulator::solve() { lane_solve(belt_); }
 
-// Sums go on from block to block in each lane by itself, so that they do not depend on where mates end their blocks.
 void LaneSimulator::reactions() {
   for (LaneLoads& l : loads_) l = {};
-  for (const ContactBlock& b : belt_.blocks) {
-    LaneLoads loads;
-    for (int k = 0; k < lanes; ++k)
-      if (const int p = b.pulley[k]; p >= 0) {
-        loads.x[k] = loads_[p].x[k];
-        loads.y[k] = loads_[p].y[k];
-        loads.moment[k] = loads_[p].moment[k];
-      }
-    lane_reactions(belt_, b.begin, b.end, loads);
-    for (int k = 0; k < lanes; ++k)
-      if (const int p = b.pulley[k]; p >= 0) {
-        loads_[p].x[k] = loads.x[k];
-        loads_[p].y[k] = loads.y[k];
-        loads_[p].moment[k] = loads.moment[k];
-      }
-  }
+  lane_reactions(belt_, loads_.data());
 }
 
 void LaneSimulator::motion() { lane_advance(belt_); }
@@ -293,36 +319,51 @@ DriveView LaneSimulator::observe(int drive) {
   s.q.reference_angle = d.state.q.reference_angle;
   s.arm_anchor = d.state.arm_anchor;
   s.free_wheel = d.state.free_wheel;
-  const int nodes = d.model->belt.nodes;
+  const int nodes = d.model->belt.nodes, rows = belt_.rows;
   const double back = 0.5 * step_;
   s.step = step_count_;
   s.segments.clear();
-  for (int i = 0; i < nodes; ++i) {
-    const int lane = belt_.use == LaneUse::arcs ? i / belt_.rows : drive;
-    const int row = belt_.use == LaneUse::arcs ? i % belt_.rows : i;
-    const std::size_t at = static_cast<std::size_t>(row) * lanes + lane;
-    s.q.vx[i] = belt_.vx.data()[at];
-    s.q.vy[i] = belt_.vy.data()[at];
-    s.q.x[i] = belt_.x.data()[at] - back * (s.q.vx[i] + 0.25 * belt_.dvx.data()[at]);
-    s.q.y[i] = belt_.y.data()[at] - back * (s.q.vy[i] + 0.25 * belt_.dvy.data()[at]);
-    s.anchor[i] = belt_.anchor.data()[at];
-    d.work.normal_peak[i] = belt_.normal_peak.data()[at];
-    d.work.tangential_peak[i] = belt_.tangential_peak.data()[at];
-    belt_.normal_peak.data()[at] = belt_.tangential_peak.data()[at] = 0;
-    const int near = near_[at];
-    if (near != s.near[i]) {
-      d.work.normal[i] = d.work.tangential[i] = d.work.slip[i] = 0;
-      s.near[i] = near;
+  for (int first = 0; first < nodes; first += rows) {
+    const int lane = belt_.use == LaneUse::arcs ? first / rows : drive;
+    const auto take = [&](const LaneArray& from, NodeArray& to) {
+      const double* source = from.data() + lane;
+      double* target = to.data() + first;
+      for (int j = 0; j < rows; ++j) target[j] = source[j * lanes];
+    };
+    take(belt_.vx, s.q.vx);
+    take(belt_.vy, s.q.vy);
+    take(belt_.x, s.q.x);
+    take(belt_.y, s.q.y);
+    take(belt_.dvx, last_change_x_);
+    take(belt_.dvy, last_change_y_);
+    take(belt_.anchor, s.anchor);
+    take(belt_.normal_peak, d.work.normal_peak);
+    take(belt_.tangential_peak, d.work.tangential_peak);
+    for (int j = 0; j < rows; ++j) belt_.normal_peak.row(j)[lane] = belt_.tangential_peak.row(j)[lane] = 0;
+    for (int j = 0; j < rows; ++j) {
+      const int i = first + j, near = near_[static_cast<std::size_t>(j) * lanes + lane];
+      if (near != s.near[i]) {
+        d.work.normal[i] = d.work.tangential[i] = d.work.slip[i] = 0;
+        s.near[i] = near;
+      }
+      if (near < 0) continue;
+      if (!s.segments.empty() && s.segments.back().end == i && s.segments.back().pulley == near)
+        s.segments.back().end = i + 1;
+      else
+        s.segments.push_back({near, i, i + 1});
     }
-    if (near < 0) continue;
-    if (!s.segments.empty() && s.segments.back().end == i && s.segments.back().pulley == near)
-      s.segments.back().end = i + 1;
-    else
-      s.segments.push_back({near, i, i + 1});
   }
+  back_by(back, nodes, last_change_x_.data(), s.q.vx.data(), s.q.x.data());
+  back_by(back, nodes, last_change_y_.data(), s.q.vy.data(), s.q.y.data());
   Evaluation e{*d.model, *d.profile, s.q, s, d.work, {time() - back, 0, back, false}};
   for (const Kernel& k : d.program) k.apply(e);
-  return {*d.model, *d.profile, s, d.work, time(), step_};
+  if (d.model->belt.bending_damping > 0) {
+    last_change_x_.fill_ghosts();
+    last_change_y_.fill_ghosts();
+    damper_rates(nodes, last_change_x_.data(), last_change_y_.data(), d.work.ux.data(), d.work.uy.data(),
+                 d.work.inverse_length.data(), d.work.turn_rate.data());
+  }
+  return {*d.model, *d.profile, s, d.work, time(), step_, back};
 }
 
 }  // namespace beltlife

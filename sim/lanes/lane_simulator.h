@@ -71,7 +71,8 @@ class LaneSimulator {
   void motion();
   void bodies();
   void search();
-  void gather(const ContactBlock& block, LanePulleys& p) const;
+  void describe(ContactBlock& block) const;
+  void follow_pulleys();
 
   double step_;
   std::int64_t step_count_ = 0, next_search_ = 0, search_steps_ = 1;
@@ -80,11 +81,13 @@ class LaneSimulator {
   bool timing_ = false;
   std::vector<KernelTime> times_;
   std::vector<std::unique_ptr<Drive>> drives_;
-  std::vector<int> near_;             // candidate pulley of each row and lane, -1: none
-  std::vector<double> gaps_, found_;  // the same, while searching
+  std::vector<int> near_;                    // candidate pulley of each row and lane, -1: none
+  std::vector<double> gaps_, found_;         // the same, while searching
+  NodeArray last_change_x_, last_change_y_;  // of the velocities of the drive observed, m/s
   bool placed_ = false;
-  std::vector<LaneNumber> centre_x_, centre_y_, centre_vx_, centre_vy_, radii_;  // by pulley
-  std::vector<LaneLoads> loads_;                                                 // by pulley
+  // By pulley; the one behind the last stands for none.
+  std::vector<LaneNumber> centre_x_, centre_y_, centre_vx_, centre_vy_, radii_, speeds_, changes_;
+  std::vector<LaneLoads> loads_;
 };
 
 }  // namespace beltlife

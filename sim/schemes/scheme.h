@@ -20,13 +20,15 @@ struct KernelTime {
 class DriveView {
  public:
   DriveView(const Model& model, const SpeedProfile& profile, const State& state, const Work& work, double time,
-            double step)
-      : model_(model), profile_(profile), state_(state), work_(work), time_(time), step_(step) {}
+            double step, double behind = 0)
+      : model_(model), profile_(profile), state_(state), work_(work), time_(time), step_(step), behind_(behind) {}
   const Model& model() const { return model_; }
   const SpeedProfile& profile() const { return profile_; }
   const State& state() const { return state_; }
   const Work& work() const { return work_; }
   double time() const { return time_; }
+  /// When the state was such, s: where positions and velocities are half a step apart, that much before time().
+  double state_time() const { return time_ - behind_; }
   double step() const { return step_; }
 
  private:
@@ -34,7 +36,7 @@ class DriveView {
   const SpeedProfile& profile_;
   const State& state_;
   const Work& work_;
-  double time_, step_;
+  double time_, step_, behind_;
 };
 
 /// Advances one drive in time with an explicit scheme. The model and the profile must outlive it.

@@ -44,8 +44,14 @@ class Moving {
   /// Contact in the lanes with the pulleys that the plain search found, row by row.
   void contact() {
     const State& s = simulator_.state();
+    std::vector<LaneNumber> speeds(model_.pulleys + 1), changes(model_.pulleys + 1);
+    for (int p = 0; p < model_.pulleys; ++p)
+      for (int k = 0; k < lanes; ++k) speeds[p][k] = s.q.speed[p];
     for (int j = 0; j < lanes_.rows; ++j) {
-      LanePulleys p;
+      ContactBlock& block = lanes_.blocks.emplace_back();
+      block.begin = j;
+      block.end = j + 1;
+      LanePulleys& p = block.of;
       for (int k = 0; k < lanes; ++k) {
         const int near = s.near[lanes_.use == LaneUse::arcs ? k * lanes_.rows + j : j];
         p.radius[k] = -1;
@@ -56,11 +62,12 @@ class Moving {
         p.vx[k] = c.vx;
         p.vy[k] = c.vy;
         p.radius[k] = model_.pulley_radius[near];
-        p.speed[k] = s.q.speed[near];
-        p.friction[k] = model_.pulley_friction[near];
+        block.pulley[k] = near;
+        p.anchor_limit[k] = model_.contact.anchor_share * model_.pulley_friction[near];
+        p.velocity_limit[k] = (1 - model_.contact.anchor_share) * model_.pulley_friction[near];
       }
-      lane_contact(lanes_, j, j + 1, p);
     }
+    lane_contact(lanes_, speeds.data(), changes.data());
   }
 
  private:

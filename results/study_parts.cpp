@@ -1,0 +1,63 @@
+// Answers of studies as words: see study_parts.h.
+#include "results/study_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace beltlife {
+
+using nlohmann::json;
+
+const json& part_of(const json& answer, std::string_view key) {
+  static const json nothing;
+  if (!answer.is_object()) return nothing;
+  const auto at = answer.find(std::string(key));
+  return at == answer.end() ? nothing : *at;
+}
+
+double number_in(const json& answer, std::string_view key) {
+  const json& j = part_of(answer, key);
+  return j.is_number() ? j.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string text_in(const json& answer, std::string_view key) {
+  const json& j = part_of(answer, key);
+  return j.is_string() ? j.get<std::string>() : std::string();
+}
+
+std::vector<std::string> texts_in(const json& answer, std::string_view key) {
+  std::vector<std::string> texts;
+  const json& list = part_of(answer, key);
+  if (list.is_array())
+    for (const json& j : list)
+      if (j.is_string()) texts.push_back(j.get<std::string>());
+  return texts;
+}
+
+std::string digits_text(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  return std::isinf(value) ? "no end" : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string percent_text(double share, int digits) { return digits_text(100 * share, digits); }
+
+std::string duration_text(double seconds) {
+  if (seconds < 120) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
+  return fmt::format("{:.3g} h", seconds / 3600);
+}
+
+std::string setting_text(const Setting& setting) {
+  if (std::holds_alternative<double>(setting)) return fmt::format("{}", std::get<double>(setting));
+  std::string text = std::get<std::string>(setting);
+  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += 2) text.replace(at, 1, "; ");
+  return text;
+}
+
+std::string count_text(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace beltlife
