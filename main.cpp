@@ -31,6 +31,11 @@ CLI::Validator number_where(bool (*allowed)(double), const std::string& words) {
       "");
 }
 
+CLI::Validator whole_number_up_to_9e15() {
+  return number_where([](double n) { return n >= 0 && n <= 9e15 && n == std::floor(n); },
+                      "a whole number from 0 to 9e15");
+}
+
 // An empty file name comes from a shell variable that is not set; it does not mean "no file".
 CLI::Validator not_empty() {
   return CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "names no file" : ""); }, "");
@@ -71,7 +76,9 @@ void run_flags(CLI::App& app, CommandOptions& o) {
 
 void driver_flags(CLI::App& app, CommandOptions& o) {
   threads_flag(app, o, "threads over points, 0: all");
-  app.add_option("--seed", o.seed, "seed of whatever is drawn at random, instead of the file's")->type_name("N");
+  app.add_option("--seed", o.seed, "seed of whatever is drawn at random, instead of the file's")
+      ->type_name("N")
+      ->check(whole_number_up_to_9e15());
   app.add_option("--out", o.out, "HDF5 result file; its log stands beside it; by default named after the study file")
       ->type_name("FILE.h5")
       ->check(not_empty());
@@ -152,8 +159,9 @@ int run(int argc, char** argv) {
       "  beltlife life sim/scenes/two_pulley.toml\n"
       "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
 
-  CLI::App* report = app.add_subcommand("report", "write one self-contained HTML page about a result file");
-  report->add_option("file", scene, "HDF5 result file, as --out of simulate or life wrote it")->required();
+  CLI::App* report = app.add_subcommand("report", "write one self-contained HTML page about a result file or a study");
+  report->add_option("file", scene, "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz)")
+      ->required();
   report->add_option("--out", o.out, "the page; by default beside the file, ending in .html")
       ->type_name("FILE.html")
       ->check(not_empty());
@@ -183,10 +191,18 @@ int run(int argc, char** argv) {
                     kind.name + " --fields, or studies/README.md.");
   }
   study->require_subcommand(1);
+  study->footer(
+      "Examples:\n"
+      "  beltlife study noise studies/examples/noise.toml\n"
+      "  beltlife study oat studies/examples/oat.toml --out oat.h5 && beltlife report oat.h5\n"
+      "  beltlife study sobol --fields");
 
   CLI::App* replay = app.add_subcommand("replay", "run one point of a study again, with full output");
   replay->add_option("file", scene, "log (.jsonl) or result file (.h5) of a study, calibration or search")->required();
-  replay->add_option("--point", o.point, "number of the point, from 0")->required()->type_name("N");
+  replay->add_option("--point", o.point, "number of the point, from 0")
+      ->required()
+      ->type_name("N")
+      ->check(whole_number_up_to_9e15());
   replay->add_option("--out", o.out, "write an HDF5 result file, for beltlife report")
       ->type_name("FILE.h5")
       ->check(not_empty());

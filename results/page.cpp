@@ -20,10 +20,10 @@ th.w,td.w{text-align:left}td:first-child{position:sticky;left:0;background:#fff}
 figure{margin:.5rem 0}figure svg{max-width:100%;height:auto}figcaption{font-size:.88rem;color:#555}
 .charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:.5rem}
 details>summary{cursor:pointer;font-weight:bold;padding:.4rem 0}pre{overflow-x:auto;font-size:.8rem;background:#f6f6f6;padding:.5rem}
-[id$=-words] td:last-child{white-space:normal;min-width:16rem}.charts>div{min-width:0}
-@media(max-width:600px){[id^=study-] td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:6rem}}
+[id$=-words] td:last-child{white-space:normal;min-width:20rem}.charts>div{min-width:0}p a{color:#0b61a4}
+#noise figure,#responses figure,#steps figure,#errors figure,#points figure{max-width:600px}
+@media(max-width:600px){[id^=study-] td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9rem}}
 @media print{details{display:block}details>*{display:block}nav{display:none}.scroll{overflow:visible}figure{break-inside:avoid}})";
-
 
 }  // namespace
 

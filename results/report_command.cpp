@@ -26,6 +26,9 @@ std::string page_beside(const std::string& input) {
 int run_report(const CommandOptions& o) {
   const std::string& input = o.scenes.at(0);
   const std::string output = o.out.empty() ? page_beside(input) : o.out;
+  std::error_code ignored;
+  if (std::filesystem::equivalent(input, output, ignored))
+    throw BadInput({Problem{output, 0, "--out", "is the file that the page is about", "another name"}});
   check_writable(output);
   const std::string page =
       is_study(input) ? study_html(read_study_record(input), input) : report_html(read_results(input), input);

@@ -20,12 +20,6 @@ std::string terminal(int width, int height) {
       width, height);
 }
 
-/// The text of a tic is a format.
-std::string tic_text(std::string name) {
-  for (std::size_t at = 0; (at = name.find('%', at)) != name.npos; at += 2) name.insert(at, 1, '%');
-  return gnuplot_quoted(name);
-}
-
 /// So much of a name as fits beside a chart; never half of a character.
 std::string shortened(const std::string& name, std::size_t most) {
   if (name.size() <= most) return name;
@@ -45,6 +39,11 @@ struct Axis {
     low = std::min(low, v);
     high = std::max(high, v);
   }
+  /// Where a value stands between the ends, from 0 to 1.
+  double share(double v) const {
+    if (!(high > low)) return 0.5;
+    return log ? std::log(v / low) / std::log(high / low) : (v - low) / (high - low);
+  }
   /// Range and tics, also where all values are the same: gnuplot would take a range of its own, perhaps without tics.
   std::string script() {
     if (!log) {
@@ -58,7 +57,8 @@ struct Axis {
     low /= 1.3, high *= 1.3;
     if (const double lacking = least / (high / low); lacking > 1) low /= std::sqrt(lacking), high *= std::sqrt(lacking);
     const double decades = std::log10(high / low);
-    const std::vector<double> steps = decades < 1.7   ? std::vector<double>{1, 2, 5}
+    const std::vector<double> steps = decades < 0.9   ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
+                                      : decades < 1.7 ? std::vector<double>{1, 2, 5}
                                       : decades < 2.5 ? std::vector<double>{1, 3}
                                                       : std::vector<double>{1};
     const int every = std::max(1, static_cast<int>(std::ceil(decades / 7)));
@@ -71,12 +71,12 @@ struct Axis {
   }
 };
 
-/// Lines of a key below the chart, and the script that puts it there.
+/// Lines of a key above the chart, by the room that gnuplot gives its columns.
 int key_lines(const std::vector<std::string>& labels, int width) {
   std::size_t longest = 0, count = 0;
   for (const std::string& label : labels)
     if (!label.empty()) longest = std::max(longest, label.size()), ++count;
-  const int columns = std::max(1, static_cast<int>((width - 70) / (60 + 6.0 * static_cast<double>(longest))));
+  const int columns = std::max(1, static_cast<int>((width - 70) / (75 + 6.5 * static_cast<double>(longest))));
   return (static_cast<int>(count) + columns - 1) / columns;
 }
 
@@ -96,6 +96,11 @@ std::string id_of(const std::string& name) {
 
 std::string svg_of(const MarkedChart& chart) {
   Axis x{'x', chart.log_x}, y{'y', chart.log_y};
+  struct Label {
+    double x, y;
+    std::string name;
+  };
+  std::vector<Label> named;
   std::string data, labels, plots;
   std::vector<std::string> key;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
@@ -106,14 +111,15 @@ std::string svg_of(const MarkedChart& chart) {
       x.hold(s.x[k]);
       y.hold(s.y[k]);
       rows += fmt::format("{} {}\n", s.x[k], s.y[k]);
-      if (k < s.names.size() && !s.names[k].empty())
-        labels += fmt::format("set label {} at {},{} left offset 0.6,0.5 font ',8' tc rgb '#555555'\n",
-                              gnuplot_quoted(s.names[k]), s.x[k], s.y[k]);
+      if (k < s.names.size() && !s.names[k].empty()) named.push_back({s.x[k], s.y[k], s.names[k]});
     }
     if (rows.empty()) continue;  // gnuplot stops at an empty data block
     data += fmt::format("$d{} << EOD\n{}EOD\n", i, rows);
     const std::string line = s.dash > 0 ? fmt::format("lw 1.5 dt {}", s.dash) : std::string();
     const std::string mark = s.mark > 0 ? fmt::format("pt {} ps {}", s.mark, 0.6 * s.size) : std::string();
+    if (s.filled)
+      plots += fmt::format("{}$d{} using 1:2 with filledcurves y=0 fc rgb '{}' fs solid 0.3 noborder notitle",
+                           plots.empty() ? "" : ", ", i, s.colour);
     plots += fmt::format("{}$d{} using 1:2 with {} lc rgb '{}' {} {} {}", plots.empty() ? "" : ", ", i,
                          s.dash == 0   ? "points"
                          : s.mark == 0 ? "lines"
@@ -129,50 +135,81 @@ std::string svg_of(const MarkedChart& chart) {
                          gnuplot_quoted(level.label));
     key.push_back(level.label);
   }
+  for (const Label& l : named) {
+    // To the left of its point if it would run out of the chart.
+    const double room = (1 - x.share(l.x)) * (chart.width - 90);
+    labels += fmt::format("set label {} at {},{} {},0.5 font ',8' tc rgb '#555555'\n", gnuplot_quoted(l.name), l.x, l.y,
+                          5.0 * static_cast<double>(l.name.size()) > room ? "right offset -0.6" : "left offset 0.6");
+  }
   const int lines = key_lines(key, chart.width);
-  return svg_of_script(chart.id, terminal(chart.width, chart.height + 17 * lines) + x.script() + y.script() +
-                                     fmt::format("set xlabel {}\nset ylabel {}\nset key {}\n",
-                                                 gnuplot_quoted(chart.x_label), gnuplot_quoted(chart.y_label),
-                                                 lines > 0 ? "below center horizontal" : "off") +
-                                     labels + data + "plot " + plots + "\n");
+  const std::string title =
+      chart.title.empty() ? "" : "set title " + gnuplot_quoted(chart.title) + " font ',11' offset 0,-0.4\n";
+  const std::string texts =
+      fmt::format("set xlabel {} offset 0,0.4\nset ylabel {}\nset key {}\n", gnuplot_quoted(chart.x_label),
+                  gnuplot_quoted(chart.y_label), lines > 0 ? "outside top center horizontal" : "off");
+  return svg_of_script(chart.id, terminal(chart.width, chart.height + 17 * lines) + x.script() + y.script() + title +
+                                     texts + labels + data + "plot " + plots + "\n");
 }
 
-std::string svg_of(const LogBars& chart) {
-  Axis x{'x', true};
-  for (const LogBars::Layer& layer : chart.layers)
+std::string svg_of(const Bars& chart) {
+  Axis x{'x', chart.log};
+  const auto at = [](const std::vector<double>& v, std::size_t r) {
+    return r < v.size() ? v[r] : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (const Bars::Layer& layer : chart.layers)
     for (const double v : layer.values) x.hold(v);
   if (x.low > x.high) return "";
-  x.low /= 2;  // the least bar is a bar
+  if (chart.base)
+    x.hold(*chart.base);
+  else if (chart.log)
+    x.low /= 2;  // the least bar is a bar
+  for (const Bars::Layer& layer : chart.layers)
+    for (const auto* ends : {&layer.low, &layer.high})
+      for (const double v : *ends) x.hold(v);
   const std::string axis = x.script();
-  const double layers = static_cast<double>(chart.layers.size()), height = 0.84 / layers;
+  const double base = chart.base.value_or(x.low);
+  // A row is its name, as high as a bar and a half, and its bars below it: beside them it would take half of a phone.
+  const double layers = static_cast<double>(chart.layers.size()), row_height = layers + 2;
   std::string data, plots, names;
   std::vector<std::string> key;
+  const auto plot = [&](const std::string& block, const std::string& rows, const std::string& how) {
+    if (rows.empty()) return;  // gnuplot stops at an empty data block
+    data += fmt::format("${} << EOD\n{}EOD\n", block, rows);
+    plots += fmt::format("{}${} {}", plots.empty() ? "" : ", ", block, how);
+  };
   for (std::size_t l = 0; l < chart.layers.size(); ++l) {
-    std::string rows;
+    const Bars::Layer& layer = chart.layers[l];
+    std::string bars, pale, ends;
     for (std::size_t r = 0; r < chart.rows.size(); ++r) {
-      const double v = chart.layers[l].values[r];
+      const double v = at(layer.values, r), low = at(layer.low, r), high = at(layer.high, r);
       if (!x.has_place(v)) continue;
-      const double middle = static_cast<double>(r) + (static_cast<double>(l) - 0.5 * (layers - 1)) * height;
-      rows += fmt::format("{0} {1} {2} {0} {3} {4}\n", v, middle, x.low, middle - 0.5 * height, middle + 0.5 * height);
+      const double top = row_height * static_cast<double>(r) + 1.5 + static_cast<double>(l);
+      (r < layer.pale.size() && layer.pale[r] ? pale : bars) +=
+          fmt::format("{0} {1} {2} {3} {4} {5}\n", v, top + 0.5, std::min(v, base), std::max(v, base), top, top + 1);
+      if (x.has_place(low) && x.has_place(high)) ends += fmt::format("{} {} {} {}\n", v, top + 0.5, low, high);
     }
-    if (rows.empty()) continue;
-    data += fmt::format("$d{} << EOD\n{}EOD\n", l, rows);
-    plots += fmt::format("{}$d{} using 1:2:3:4:5:6 with boxxyerror lc rgb '{}' title {}", plots.empty() ? "" : ", ", l,
-                         safe_colour(l), gnuplot_quoted(chart.layers[l].label));
-    key.push_back(chart.layers[l].label);
+    const std::string title = layer.label.empty() ? "notitle" : "title " + gnuplot_quoted(layer.label);
+    constexpr const char* boxes = "using 1:2:3:4:5:6 with boxxyerror lc rgb";
+    plot(fmt::format("d{}", l), bars, fmt::format("{} '{}' {}", boxes, safe_colour(l), title));
+    plot(fmt::format("p{}", l), pale, fmt::format("{} '#bbbbbb' notitle", boxes));
+    plot(fmt::format("w{}", l), ends, "using 1:2:3:4 with xerrorbars lc rgb '#222222' pt 0 ps 0 notitle");
+    if (!bars.empty()) key.push_back(layer.label);
   }
   for (std::size_t r = 0; r < chart.rows.size(); ++r)
-    names += fmt::format("{}{} {}", r > 0 ? ", " : "", tic_text(shortened(chart.rows[r], 48)), r);
-  constexpr int width = 720;
-  const int bars = static_cast<int>(chart.rows.size() * chart.layers.size());
-  return svg_of_script(
-      chart.id, terminal(width, 80 + 17 * key_lines(key, width) + 11 * bars + 6 * static_cast<int>(chart.rows.size())) +
-                    axis +
-                    fmt::format("set yrange [{}:-0.5]\nset ytics ({}) scale 0\nset xlabel {}\n"
-                                "unset grid\nset grid xtics lc rgb '#dddddd'\n"
-                                "set key below center horizontal\nset style fill solid 0.9 noborder\n",
-                                static_cast<double>(chart.rows.size()) - 0.5, names, gnuplot_quoted(chart.x_label)) +
-                    data + "plot " + plots + "\n");
+    names += fmt::format("set label {} at graph 0.01, first {} left front\n",
+                         gnuplot_quoted(shortened(chart.rows[r], 60)), row_height * static_cast<double>(r) + 0.85);
+  if (chart.base)
+    names += fmt::format("set arrow from first {0}, graph 0 to first {0}, graph 1 nohead lc rgb '#666666'\n", base);
+  constexpr int width = 480;
+  const double rows = row_height * static_cast<double>(chart.rows.size());
+  const int lines = key_lines(key, width);
+  return svg_of_script(chart.id, terminal(width, 70 + 17 * lines + static_cast<int>(12 * rows)) + axis + names +
+                                     fmt::format("set yrange [{}:0]\nunset ytics\nset xlabel {} offset 0,0.4\n"
+                                                 "unset grid\nset xtics nomirror\nset grid xtics lc rgb '#dddddd'\n"
+                                                 "set key {}\nset style fill solid 0.9 noborder\n",
+                                                 rows, gnuplot_quoted(chart.x_label),
+                                                 lines > 0 ? "outside top center horizontal" : "off") +
+                                     data + "plot " + plots + "\n");
 }
 
 }  // namespace beltlife

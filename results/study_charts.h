@@ -1,6 +1,7 @@
-// Owns the charts of study pages: marked curves on logarithmic or plain axes, bars on a logarithmic one.
+// Owns the charts of study pages: marked curves and horizontal bars, on logarithmic or plain axes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ std::string safe_colour(std::size_t index);
 /// Curves with marks. A point that has no place on a logarithmic axis, or is no number, is left out.
 struct MarkedChart {
   std::string id;  ///< unique on its page, of letters, digits, '-', '_' and '.'
+  std::string title;
   std::string x_label, y_label;
   bool log_x = false, log_y = false;
   struct Series {
@@ -19,11 +21,12 @@ struct MarkedChart {
     std::vector<double> x, y;
     std::vector<std::string> names = {};  ///< written beside the points; may be empty
     std::string colour = "#000000";
-    int mark = 7;     ///< gnuplot's point type; 0: none
-    int dash = 1;     ///< gnuplot's dash type of the line; 0: no line
-    double size = 1;  ///< of the marks
+    int mark = 7;         ///< gnuplot's point type; 0: none
+    int dash = 1;         ///< gnuplot's dash type of the line; 0: no line
+    double size = 1;      ///< of the marks
+    bool filled = false;  ///< down to zero, paler than the line
   };
-  std::vector<Series> series;
+  std::vector<Series> series = {};
   /// A dashed line across the chart.
   struct Level {
     std::string label;
@@ -31,26 +34,30 @@ struct MarkedChart {
     int dash = 2;
   };
   std::vector<Level> levels = {};
-  int width = 560, height = 380;  ///< px, without the key
+  int width = 480, height = 330;  ///< px, without the key
 };
 
 /// The chart as SVG; empty if no point of it can be drawn.
 std::string svg_of(const MarkedChart& chart);
 
-/// Horizontal bars, for each row one of every layer, from the left end of a logarithmic axis.
-struct LogBars {
+/// Horizontal bars, for each row one of every layer.
+struct Bars {
   std::string id;
   std::string x_label;
   std::vector<std::string> rows;
   struct Layer {
-    std::string label;
-    std::vector<double> values;  ///< one a row; what is not above zero has no bar
+    std::string label;                        ///< empty: not in the key
+    std::vector<double> values;               ///< one a row; what has no place on the axis has no bar
+    std::vector<double> low = {}, high = {};  ///< ends of whiskers, one a row; may be empty
+    std::vector<bool> pale = {};              ///< bars without colour; may be empty
   };
   std::vector<Layer> layers;
+  bool log = false;
+  std::optional<double> base = {};  ///< where bars begin; none: at the left end of the axis
 };
 
 /// The chart as SVG; empty if there is no bar.
-std::string svg_of(const LogBars& chart);
+std::string svg_of(const Bars& chart);
 
 /// A part of an id: what is neither letter, digit, '-' nor '.' becomes '-'.
 std::string id_of(const std::string& name);

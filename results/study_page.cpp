@@ -15,10 +15,10 @@ namespace {
 struct StudyKindPage {
   std::string_view driver;
   const char* title;
-  const char* about;                       ///< what such a study asks
-  StudyPart (*part)(const StudyRecord&);   ///< from answer and points; null: the common sections are all
-  bool scatters;                           ///< whether charts of quantities against parameters mean anything
-  const char* failures;                    ///< HTML: what points that are not ok mean here
+  const char* about;                      ///< what such a study asks
+  StudyPart (*part)(const StudyRecord&);  ///< from answer and points; null: the common sections are all
+  bool scatters;                          ///< whether charts of quantities against parameters mean anything
+  const char* failures;                   ///< HTML: what points that are not ok mean here
 };
 
 constexpr StudyKindPage kinds[] = {
@@ -28,6 +28,17 @@ constexpr StudyKindPage kinds[] = {
      "A setting that failed has no errors; it stays in the table of settings."},
     {"study stability", "Stability", "predicted and observed stable steps, and whether extreme cases run",
      stability_part, false, "Bisection needs points on both sides of the longest stable step: many diverge by design."},
+    {"study oat", "One change at a time", "what single changes do, beside what was said of them", oat_part, false,
+     "A side that failed at some crank phases is judged by the others."},
+    {"study morris", "Elementary effects", "which parameters matter at all", morris_part, true,
+     "An effect needs both its points; those without are left out of the means."},
+    {"study sobol", "Sobol indices", "which share of the variance is whose", sobol_part, true,
+     "A base row with a failed point is left out whole. If failures favour some values, the indices are those of what "
+     "did not fail."},
+    {"study surrogate", "Surrogate", "which share of the variance is whose, by a model learnt from the points",
+     surrogate_part, true, "The surrogate has learnt nothing of what failed."},
+    {"study uncertainty", "Uncertainty", "how far quantities scatter with the scatter of the parameters",
+     uncertainty_part, true, "They are missing from every percentile and share."},
 };
 
 /// A kind that has no row has the common sections, and its answer as it is.
@@ -66,9 +77,8 @@ Section summary(const StudyRecord& record, const StudyKindPage& kind, StudyPart 
   about += fmt::format("{} evaluated in {} of processor time", count_text(record.points.size(), "point"),
                        duration_text(processor_s));
   about += failed == 0 ? std::string("; all are ok.")
-                       : fmt::format("; <a href=\"#failures\">{} not ok</a>.", failed == 1
-                                                                                  ? std::string("1 is")
-                                                                                  : fmt::format("{} are", failed));
+                       : fmt::format("; <a href=\"#failures\">{} not ok</a>.",
+                                     failed == 1 ? std::string("1 is") : fmt::format("{} are", failed));
   std::vector<Row> rows = std::move(part.key_numbers);
   rows.insert(rows.begin(), {"studied", subject_of(record.head)});
   rows.push_back({"points", std::to_string(record.points.size())});

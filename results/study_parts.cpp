@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/eval/quantity_unit.h"
+
 namespace beltlife {
 
 using nlohmann::json;
@@ -22,6 +24,11 @@ double number_in(const json& answer, std::string_view key) {
   return j.is_number() ? j.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
+bool flag_in(const json& answer, std::string_view key) {
+  const json& j = part_of(answer, key);
+  return j.is_boolean() ? j.get<bool>() : j.is_number() && j.get<double>() != 0;
+}
+
 std::string text_in(const json& answer, std::string_view key) {
   const json& j = part_of(answer, key);
   return j.is_string() ? j.get<std::string>() : std::string();
@@ -36,17 +43,39 @@ std::vector<std::string> texts_in(const json& answer, std::string_view key) {
   return texts;
 }
 
+std::string error_words(const json& answer) {
+  const std::string error = text_in(answer, "error");
+  if (error.empty()) return "";
+  return "<span class=\"alarm\">There is no answer: " + html_escaped(error) + "</span>. ";
+}
+
 std::string digits_text(double value, int digits) {
   if (std::isnan(value)) return "-";
   return std::isinf(value) ? "no end" : fmt::format("{:.{}g}", value, digits);
 }
 
-std::string percent_text(double share, int digits) { return digits_text(100 * share, digits); }
+std::string percent_text(double share, int digits) {
+  // Written out where that is short: 1100 rather than 1.1e+03.
+  const double percent = 100 * share;
+  return std::abs(percent) >= 1 && std::abs(percent) < 1e6 ? html_rounded(percent, digits)
+                                                           : digits_text(percent, digits);
+}
 
 std::string duration_text(double seconds) {
   if (seconds < 120) return fmt::format("{:.3g} s", seconds);
   if (seconds < 7200) return fmt::format("{:.3g} min", seconds / 60);
   return fmt::format("{:.3g} h", seconds / 3600);
+}
+
+std::string interval_text(const json& interval, int digits) {
+  const double low = number_in(interval, "low"), high = number_in(interval, "high");
+  if (std::isnan(low) && std::isnan(high)) return "-";
+  return digits_text(low, digits) + " to " + digits_text(high, digits);
+}
+
+std::string with_unit(const std::string& name) {
+  const std::string unit = unit_of_name(name);
+  return unit.empty() ? name : name + ", " + unit;
 }
 
 std::string setting_text(const Setting& setting) {

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <regex>
 
 #include "results/study_charts.h"
 #include "results/study_parts.h"
@@ -15,24 +15,10 @@ namespace {
 constexpr std::size_t listed_failures = 50, listed_reasons = 20, most_quantities = 6, most_parameters = 4,
                       most_marks = 1000;
 
-/// A reason without its numbers, so that the same mishap at another time or place counts as the same.
+/// A reason without its numbers, so that the same mishap at another time or place counts as the same; "idler_3" stays.
 std::string kind_of_reason(const std::string& reason) {
-  std::string kind;
-  for (std::size_t i = 0; i < reason.size(); ++i) {
-    const auto digit = [&](std::size_t at) { return at < reason.size() && reason[at] >= '0' && reason[at] <= '9'; };
-    const bool in_word = i > 0 && (std::isalnum(static_cast<unsigned char>(reason[i - 1])) || reason[i - 1] == '_');
-    if (!digit(i) || in_word) {
-      kind += reason[i];
-      continue;
-    }
-    kind += "...";
-    while (digit(i + 1) || ((reason[i] == 'e' || reason[i] == '.') && digit(i + 2)) ||
-           (i + 1 < reason.size() && (reason[i + 1] == '.' || reason[i + 1] == 'e') &&
-            (digit(i + 2) || (i + 2 < reason.size() && (reason[i + 2] == '-' || reason[i + 2] == '+') && digit(i + 3)))) ||
-           ((reason[i] == 'e') && i + 1 < reason.size() && (reason[i + 1] == '-' || reason[i + 1] == '+')))
-      ++i;
-  }
-  return kind;
+  static const std::regex number(R"(\b\d+(\.\d+)?(e[+-]?\d+)?\b)");
+  return std::regex_replace(reason, number, "...");
 }
 
 bool varies(const std::vector<double>& v) {
@@ -47,11 +33,6 @@ std::vector<double> numbers_of(const std::vector<const StudyPoint*>& points, std
     v.push_back(number_of(p->settings[parameter]));
   }
   return varies(v) ? v : std::vector<double>{};
-}
-
-std::string with_unit(const std::string& name) {
-  const std::string unit = unit_of_name(name);
-  return unit.empty() ? name : name + ", " + unit;
 }
 
 std::string folded(const char* id, const char* summary, const std::string& text) {
@@ -78,9 +59,9 @@ Section failures_section(const StudyRecord& record, const std::string& note) {
   if (failed == 0) return {"failures", "", ""};
   std::vector<std::pair<std::size_t, Row>> counted;
   for (const auto& [what, times] : reasons)
-    counted.push_back({times.first,
-                       {std::to_string(times.first), std::string(to_string(what.first)), std::to_string(times.second),
-                        what.second}});
+    counted.push_back(
+        {times.first,
+         {std::to_string(times.first), std::string(to_string(what.first)), std::to_string(times.second), what.second}});
   std::stable_sort(counted.begin(), counted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Row> groups;
   for (const auto& [count, row] : counted)
@@ -119,8 +100,8 @@ Section points_section(const StudyRecord& record) {
   const std::size_t every = (points.size() + most_marks - 1) / most_marks;
   for (std::size_t q = 0; q < shown; ++q)
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-      MarkedChart chart{fmt::format("points-{}-{}", q, i), with_unit(parameters[i].name),
-                        with_unit(record.head.quantities[q])};
+      MarkedChart chart{fmt::format("points-{}-{}", q, i), record.head.quantities[q], with_unit(parameters[i].name),
+                        unit_of_name(record.head.quantities[q])};
       chart.width = 400, chart.height = 260;
       MarkedChart::Series marks;
       marks.colour = safe_colour(q), marks.dash = 0, marks.size = 0.7;

@@ -65,8 +65,14 @@ LoadedProblem load_problem(const ProblemSpec& spec, const std::filesystem::path&
   if (problem.spec.scene && !log.is_faulty("scene")) {
     CommandOptions quiet = o;  // the result file is the study's
     quiet.out.clear();
+    const auto path = study.parent_path() / *problem.spec.scene;
+    if (!std::filesystem::exists(path)) {
+      log.add(SpecPath{}.child("scene"), log.line("scene"), fmt::format("there is no file {}", path.string()),
+              "a scene file, relative to the study file");
+      return problem;
+    }
     try {
-      problem.scene = load_scene((study.parent_path() / *problem.spec.scene).string(), quiet);
+      problem.scene = load_scene(path.string(), quiet);
     } catch (const BadInput& bad) {
       for (const Problem& p : bad.problems()) log.problems.push_back(p);
       log.faulty.insert("scene");

@@ -94,7 +94,8 @@ ConvergenceStudy::ConvergenceStudy(const LoadedProblem& problem, const Convergen
     : problem_(problem), settings_(settings) {
   const auto place = SpecPath{}.child("study").child("ranges");
   if (!problem.scene) {
-    log.add(SpecPath{}.child("scene"), 0, "missing: schemes and meshes are those of the embedded simulator", "a scene");
+    log.add(SpecPath{}.child("scene"), log.line("scene"),
+            "missing: schemes and meshes are those of the embedded simulator", "a scene");
     return;
   }
   if (!problem.spec.parameter.empty())
@@ -110,6 +111,9 @@ ConvergenceStudy::ConvergenceStudy(const LoadedProblem& problem, const Convergen
     if (settings.ranges.empty() || std::any_of(settings.ranges.begin(), settings.ranges.end(), of))
       quantities_.push_back(q);
   }
+  if (quantities_.empty() && !log.is_faulty(place.place))
+    log.add(SpecPath{}.child("quantities"), log.line("quantities"), "none is of the ranges that are run",
+            "quantities of these ranges, or other study.ranges");
   const SceneSpec& scene = problem.scene->file.scene;
   for (const int n : settings.elements)
     for (const Scheme scheme : settings.schemes) {
@@ -121,6 +125,7 @@ ConvergenceStudy::ConvergenceStudy(const LoadedProblem& problem, const Convergen
       } catch (const BadInput& bad) {
         const auto at = SpecPath{}.child("study").child("elements");
         log.add(at, log.line(at.place), bad.problems().front().what, bad.problems().front().allowed);
+        break;  // one complaint a mesh
       }
     }
 }

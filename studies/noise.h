@@ -22,8 +22,9 @@ struct Response {
   double mean = 0;
   std::vector<std::size_t> members;  ///< indices of the values that belong to it
 };
-/// Splits values where a gap stands out: wider than four times the scatter on either side of it and than `resolution`
-/// of the largest value, with two values or more on either side. One response, or several from low to high.
+/// Splits values where a gap stands out: wider than four times the scatter within the responses on either side of it
+/// (24 times of four values, 6 of eight) and than `resolution` of the largest value, with two values or more on either
+/// side. One response, or several from low to high.
 std::vector<Response> responses_of(const std::vector<double>& values, double resolution = 5e-3);
 
 struct Spread {

@@ -62,12 +62,22 @@ NoiseStudy::NoiseStudy(const LoadedProblem& problem, const NoiseSettings& settin
     for (const std::string& path : paths_) start_.push_back(get_number(*scene, path));
   }
   if (paths_.empty())
-    log.add(SpecPath{}.child("parameter"), 0, "missing: there is nothing to perturb", "at least one [[parameter]]");
+    log.add(SpecPath{}.child("parameter"), log.line("parameter"), "missing: there is nothing to perturb",
+            "at least one [[parameter]]");
+  for (std::size_t i = 0; i < problem.spec.parameter.size(); ++i) {
+    const SpecPath at = SpecPath{}.child("parameter").element(i);
+    if (scene && scene->driver && (paths_[i] == phase_path || paths_[i] == ramp_path))
+      log.add(at.child("path"), log.line(at.child("path").place), paths_[i] + " is varied by this study itself",
+              "study.phases, study.ramp_factors");
+    if (!problem.spec.parameter[i].start)
+      log.add(at.child("start"), log.line(at.place), "missing: there is no nominal value",
+              "start, both bounds or the mean of a distribution");
+  }
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     scale_.push_back(std::abs(start_[i]));
     if (scale_[i] > 0) continue;
-    const ParameterSpec& p = problem.spec.parameter[i];
-    scale_[i] = p.lower && p.upper ? *p.upper - *p.lower : 1;
+    const ParameterSpec* p = i < problem.spec.parameter.size() ? &problem.spec.parameter[i] : nullptr;
+    scale_[i] = p && p->lower && p->upper ? *p->upper - *p->lower : 1;
   }
   varied_ = paths_.size();
   if (scene && scene->driver) {

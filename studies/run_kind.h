@@ -43,7 +43,7 @@ int run_kind(const CommandOptions& o) {
     fmt::print("{}\n", json_text(answer));
   else
     fmt::print("{}", Kind::text(answer));
-  return 0;
+  return answer.contains("error") ? 3 : 0;
 }
 
 }  // namespace beltlife

@@ -55,9 +55,12 @@ StabilityStudy::StabilityStudy(const LoadedProblem& problem, const StabilitySett
     : problem_(problem), settings_(settings) {
   const SpecPath study = SpecPath{}.child("study");
   if (!problem.scene) {
-    log.add(SpecPath{}.child("scene"), 0, "missing: steps are those of the embedded simulator", "a scene");
+    log.add(SpecPath{}.child("scene"), log.line("scene"), "missing: steps are those of the embedded simulator",
+            "a scene");
     return;
   }
+  if (!problem.spec.quantities.empty())
+    log.add(SpecPath{}.child("quantities"), log.line("quantities"), "this kind of study records its own", "no quantities");
   if (!problem.spec.parameter.empty())
     log.add(SpecPath{}.child("parameter"), log.line("parameter[0]"), "this kind of study has none",
             "[[study.variation]], [[study.extreme]]");
@@ -110,13 +113,14 @@ StudyHead StabilityStudy::head() const {
 }
 
 Point StabilityStudy::point(const Case& c, bool trial, std::string_view scheme, const std::string& step_s) const {
-  std::vector<std::string> settings = c.settings;
-  if (trial)
+  std::vector<std::string> settings;
+  if (trial)  // first, so that a case may change them
     settings.insert(
         settings.end(),
         {fmt::format("profile.settle_s={}", settings_.settle_s), fmt::format("profile.ramp_s={}", settings_.ramp_s),
          fmt::format("profile.hold_s={}", settings_.hold_s), fmt::format("profile.evaluate_s={}", settings_.hold_s),
          "profile.settled_within="});
+  settings.insert(settings.end(), c.settings.begin(), c.settings.end());
   return {joined_lines(settings), std::string(scheme), step_s};
 }
 
@@ -195,9 +199,13 @@ nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
 
 nlohmann::json StabilityStudy::extremes(StudyRun& run) const {
   nlohmann::json rows = nlohmann::json::array();
-  const std::string scheme(enum_name(problem_.scene->file.scene.solver.scheme));
   std::vector<Point> points;
-  for (const Case& c : extremes_) points.push_back(point(c, false, scheme, ""));
+  for (const Case& c : extremes_) {
+    SceneSpec scene = problem_.scene->file.scene;  // a case may bring its own scheme and step
+    for (const std::string& s : c.settings) set_field(scene, s);
+    const auto step = scene.solver.step_s;
+    points.push_back(point(c, false, enum_name(scene.solver.scheme), step ? fmt::format("{}", *step) : ""));
+  }
   const std::vector<Answer> answers = run.evaluate(points, "extreme cases");
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
     double step = 0;

@@ -3,9 +3,14 @@
 
 #include "studies/commands.h"
 #include "studies/convergence_study.h"
+#include "studies/morris_study.h"
 #include "studies/noise_study.h"
+#include "studies/oat_study.h"
 #include "studies/run_kind.h"
+#include "studies/sobol_study.h"
 #include "studies/stability_study.h"
+#include "studies/surrogate_study.h"
+#include "studies/uncertainty_study.h"
 
 namespace beltlife {
 namespace {
@@ -19,9 +24,15 @@ StudyKind kind(const char* name, const char* about) {
 
 const std::vector<StudyKind>& study_kinds() {
   static const std::vector<StudyKind> kinds{
+      kind<OatStudy>("oat", "one change at a time: what moves, what does not, and what somebody said of it"),
       kind<NoiseStudy>("noise", "how far each quantity scatters by itself, and responses that coexist"),
       kind<ConvergenceStudy>("convergence", "error against run time by scheme, step and mesh; the cheapest setting"),
       kind<StabilityStudy>("stability", "predicted and observed stable steps over stiff cases, and extreme cases"),
+      kind<MorrisStudy>("morris", "which parameters matter at all, from few points, against the noise"),
+      kind<SobolStudy>("sobol", "which share of the variance comes from which parameter, with intervals"),
+      kind<UncertaintyStudy>("uncertainty",
+                             "how quantities scatter when parameters do; B10 life; odds of missing a target"),
+      kind<SurrogateStudy>("surrogate", "a fitted function in place of the simulator, its Q2 and its indices"),
   };
   return kinds;
 }

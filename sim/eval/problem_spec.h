@@ -82,7 +82,9 @@ struct ProblemSpec {
     v("command", command, any_text, "another simulator in place of the embedded one");
     v("quantities", quantities, any_text, "what to record of every point; names: beltlife check --json");
     v("step_budget", step_budget, above(0, 1e15),
-      "a range that needs more time steps than this is not run, and its point has timed out; absent: no limit");
+      "a range that needs more time steps than this (force evaluations: the thesis' scheme has two a step) is not run, "
+      "and "
+      "its point has timed out; absent: no limit");
     v("parameter", parameter, any_text, "what is varied");
   }
 

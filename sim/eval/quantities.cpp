@@ -16,7 +16,13 @@ std::vector<Quantity> quantities_of(const RangeSummary& s) {
   const auto add = [&](const std::string& name, double value) { q.push_back({s.name + "." + name, value}); };
   if (s.output) {
     add(s.output->body + ".speed_rpm.mean", s.output->speed_rpm_mean);
+    add(s.output->body + ".speed_rpm.min", s.output->speed_rpm_min);
+    add(s.output->body + ".speed_rpm.max", s.output->speed_rpm_max);
+    add(s.output->body + ".speed_rpm.peak_hz", s.output->speed_peak_hz);
     add(s.output->body + ".torque_n_m.mean", s.output->torque_n_m_mean);
+    add(s.output->body + ".torque_n_m.min", s.output->torque_n_m_min);
+    add(s.output->body + ".torque_n_m.max", s.output->torque_n_m_max);
+    add(s.output->body + ".torque_n_m.peak_hz", s.output->torque_peak_hz);
     for (const OrderLine& line : s.output->orders) {
       add(fmt::format("{}.speed_rpm.order_{:g}", s.output->body, line.order), line.speed_rpm);
       add(fmt::format("{}.torque_n_m.order_{:g}", s.output->body, line.order), line.torque_n_m);

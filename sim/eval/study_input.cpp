@@ -73,6 +73,7 @@ void check_problem(const ProblemSpec& problem, ReadLog& log) {
   const SpecPath root;
   if (problem.scene && problem.command)
     complain(log, root.child("command"), "the file gives a scene as well", "exactly one of scene, [command]");
+  if (problem.scene && problem.scene->empty()) complain(log, root.child("scene"), "names no file", "a scene file");
   if (!problem.scene && !problem.command && !log.is_faulty("scene") && !log.is_faulty("command"))
     complain(log, root.child("scene"), "missing: there is nothing to evaluate", "exactly one of scene, [command]");
   if (problem.command && (problem.command->run.empty() || problem.command->run[0].empty()))

@@ -41,8 +41,15 @@ OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord
   out.body = m.scene.output->body;
   const auto speed = stretch(run, window, out.body + ".speed_rpm"),
              torque = stretch(run, window, out.body + ".torque_n_m");
-  out.speed_rpm_mean = extent(speed).mean;
-  out.torque_n_m_mean = extent(torque).mean;
+  const Extent of_speeds = extent(speed), of_torques = extent(torque);
+  out.speed_rpm_mean = of_speeds.mean;
+  out.speed_rpm_min = of_speeds.low;
+  out.speed_rpm_max = of_speeds.high;
+  out.torque_n_m_mean = of_torques.mean;
+  out.torque_n_m_min = of_torques.low;
+  out.torque_n_m_max = of_torques.high;
+  out.speed_peak_hz = peak_frequency(speed, m.scene.solver.sample_rate_hz);
+  out.torque_peak_hz = peak_frequency(torque, m.scene.solver.sample_rate_hz);
   if (m.driver.body < 0) return out;
   const auto angle = stretch(run, window, "driver.angle_rad");
   const auto orders = default_orders();

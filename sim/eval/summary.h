@@ -20,8 +20,10 @@ struct OrderLine {
 /// The two outputs that are compared with measurements.
 struct OutputSummary {
   std::string body;
-  double speed_rpm_mean = 0;
-  double torque_n_m_mean = 0;
+  double speed_rpm_mean = 0, speed_rpm_min = 0, speed_rpm_max = 0;
+  double torque_n_m_mean = 0, torque_n_m_min = 0, torque_n_m_max = 0;
+  /// Where the spectrum is highest; not a number in a window too short for one.
+  double speed_peak_hz = 0, torque_peak_hz = 0;
   std::vector<OrderLine> orders;
 };
 

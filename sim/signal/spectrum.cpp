@@ -2,6 +2,7 @@
 #include "sim/signal/spectrum.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -78,6 +79,18 @@ Spectrum amplitude_spectrum(std::span<const double> signal, double sample_rate_h
     spectrum.amplitude.push_back(sides * std::abs(bins[k]) / window_sum);
   }
   return spectrum;
+}
+
+double peak_frequency(std::span<const double> signal, double sample_rate_hz) {
+  if (signal.size() < 8) return std::nan("");
+  const Spectrum s = amplitude_spectrum(signal, sample_rate_hz);
+  const auto highest = std::max_element(s.amplitude.begin() + 1, s.amplitude.end() - 1);
+  if (!(*highest > 0)) return std::nan("");
+  const auto k = static_cast<std::size_t>(highest - s.amplitude.begin());
+  const double bin = s.frequency_hz[1] - s.frequency_hz[0];
+  const double a = std::log(s.amplitude[k - 1]), b = std::log(s.amplitude[k]), c = std::log(s.amplitude[k + 1]);
+  const double shift = std::isfinite(a) && std::isfinite(c) && a - 2 * b + c < 0 ? 0.5 * (a - c) / (a - 2 * b + c) : 0;
+  return s.frequency_hz[k] + bin * shift;
 }
 
 std::vector<double> default_orders() {

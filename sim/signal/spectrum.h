@@ -14,6 +14,10 @@ struct Spectrum {
 };
 Spectrum amplitude_spectrum(std::span<const double> signal, double sample_rate_hz);
 
+/// Frequency (Hz) at which the amplitude spectrum is highest, between bins by a parabola through the logarithms of
+/// three of them: right to a few hundredths of a bin. Not a number for fewer than eight samples or a constant signal.
+double peak_frequency(std::span<const double> signal, double sample_rate_hz);
+
 /// Amplitude and phase of A cos(order x angle + phase) in a signal, by least squares on all orders and the mean
 /// together, so that the window need not hold whole revolutions.
 struct OrderAmplitude {

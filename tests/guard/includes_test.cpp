@@ -112,6 +112,16 @@ TEST(Includes, OfHdf5StandWhereFilesAreWrittenAndRead) {
   EXPECT_EQ(includers("hdf5.h"), (std::vector<std::string>{"results/hdf5_image.cpp", "results/hdf5_source.cpp"}));
 }
 
+// Heavy headers, and threads and a random generator that belong to the whole program.
+TEST(Includes, OfOpenTurnsStandInFilesNamedAfterIt) {
+  for (const Include& i : includes())
+    if (in(i.header, "openturns") || i.header == "studies/openturns_margins.h") {
+      EXPECT_TRUE(i.file.starts_with("studies/openturns_")) << i.file << " includes " << i.header;
+      EXPECT_TRUE(!i.file.ends_with(".h") || i.file == "studies/openturns_margins.h") << i.file;
+    }
+  EXPECT_FALSE(includers("openturns/Distribution.hxx").empty());
+}
+
 TEST(Includes, OfOpenMpStandInOneFile) {
   EXPECT_EQ(includers("omp.h"), std::vector<std::string>{"sim/eval/parallel_for.cpp"});
 }
