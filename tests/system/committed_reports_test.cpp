@@ -1,0 +1,44 @@
+// Committed reports: each page comes from its compressed log alone, and the log is whole.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "results/study_file.h"
+#include "sim/scene/toml_tree.h"
+#include "tests/system/command.h"
+
+namespace beltlife::system_test {
+namespace {
+
+std::vector<fs::path> logs() {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(BELTLIFE_SOURCE "/results/reports"))
+    if (entry.is_directory()) found.push_back(entry.path() / "log.jsonl.gz");
+  return found;
+}
+
+TEST(CommittedReports, HaveAWholeLogAndAReadmeWithItsCommand) {
+  EXPECT_GE(logs().size(), 2u);
+  for (const fs::path& log : logs()) {
+    SCOPED_TRACE(log);
+    const StudyRecord record = read_study_record(log);
+    EXPECT_FALSE(record.answer.is_null()) << "the study has not ended";
+    EXPECT_FALSE(record.points.empty());
+    EXPECT_NE(read_text(log.parent_path() / "README.md").find(record.head.command_line), std::string::npos)
+        << record.head.command_line;
+  }
+}
+
+TEST(CommittedReports, GiveTheirPagesFromTheLogAlone) {
+  const fs::path page = fs::path(testing::TempDir()) / "committed_report.html";
+  for (const fs::path& log : logs()) {
+    SCOPED_TRACE(log);
+    fs::remove(page);
+    const Answer made = beltlife({"report", log.string(), "--out", page.string(), "--quiet"});
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_GT(fs::file_size(page), 10000u);
+  }
+}
+
+}  // namespace
+}  // namespace beltlife::system_test
