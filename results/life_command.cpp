@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "results/print.h"
-#include "results/results_file.h"
 #include "results/scene_runs.h"
 #include "results/table.h"
+#include "results/whole_file.h"
 
 namespace beltlife {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "results/results_file.h"
+#include "results/whole_file.h"
 #include "sim/plan.h"
 
 namespace beltlife {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "results/print.h"
-#include "results/results_file.h"
 #include "results/scene_runs.h"
 #include "results/study_file.h"
 #include "results/table.h"
+#include "results/whole_file.h"
 #include "sim/eval/command_model.h"
 #include "sim/eval/drive_model.h"
 #include "sim/eval/parallel_for.h"

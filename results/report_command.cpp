@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "results/commands.h"
 #include "results/report.h"
-#include "results/results_file.h"
 #include "results/study_file.h"
 #include "results/study_page.h"
+#include "results/whole_file.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -32,8 +31,7 @@ int run_report(const CommandOptions& o) {
   check_writable(output);
   const std::string page =
       is_study(input) ? study_html(read_study_record(input), input) : report_html(read_results(input), input);
-  if (!(std::ofstream(output) << page << std::flush))
-    throw BadInput({Problem{output, 0, "", "cannot be written", "free space on the disk, or a path elsewhere"}});
+  write_whole_file(output, page);
   if (!o.quiet) fmt::print("wrote {}\n", output);
   return 0;
 }

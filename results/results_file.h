@@ -23,10 +23,6 @@ struct Provenance {
   int elements = 0;
 };
 
-/// Refuses, before anything is simulated, a path that cannot be written (missing folder, no permission, a
-/// directory). Throws BadInput.
-void check_writable(const std::filesystem::path& path);
-
 /// Writes runs (one per simulated run: the whole profile, or one per range), the life and what is solved of the drive
 /// without running it to `path`; the latter two may be missing.
 /// Failed runs are written too, marked by their status. Throws BadInput if the file cannot be written; leaves

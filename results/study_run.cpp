@@ -9,8 +9,8 @@
 #include <map>
 
 #include "results/progress.h"
-#include "results/results_file.h"
 #include "results/study_file.h"
+#include "results/whole_file.h"
 #include "sim/eval/command_model.h"
 
 namespace beltlife {

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "results/results_file.h"
+#include "results/whole_file.h"
 #include "sim/scene/scene_io.h"
 #include "tests/documented_names.h"
 
