@@ -74,11 +74,12 @@ void run_flags(CLI::App& app, CommandOptions& o) {
       ->check(not_empty());
 }
 
-void driver_flags(CLI::App& app, CommandOptions& o) {
+void driver_flags(CLI::App& app, CommandOptions& o, bool seeded) {
   threads_flag(app, o, "threads over points, 0: all");
-  app.add_option("--seed", o.seed, "seed of whatever is drawn at random, instead of the file's")
-      ->type_name("N")
-      ->check(whole_number_up_to_9e15());
+  if (seeded)
+    app.add_option("--seed", o.seed, "seed of whatever is drawn at random, instead of the file's")
+        ->type_name("N")
+        ->check(whole_number_up_to_9e15());
   app.add_option("--out", o.out, "HDF5 result file; its log stands beside it; by default named after the study file")
       ->type_name("FILE.h5")
       ->check(not_empty());
@@ -160,7 +161,9 @@ int run(int argc, char** argv) {
       "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
 
   CLI::App* report = app.add_subcommand("report", "write one self-contained HTML page about a result file or a study");
-  report->add_option("file", scene, "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz)")
+  report
+      ->add_option("file", scene,
+                   "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz)")
       ->required();
   report->add_option("--out", o.out, "the page; by default beside the file, ending in .html")
       ->type_name("FILE.html")
@@ -174,7 +177,7 @@ int run(int argc, char** argv) {
   for (const beltlife::StudyKind& kind : beltlife::study_kinds()) {
     CLI::App* of_kind = study->add_subcommand(kind.name, kind.about);
     common_flags(*of_kind, o, shorthand);
-    driver_flags(*of_kind, o);
+    driver_flags(*of_kind, o, kind.seeded);
     of_kind->add_option("study", scene, "study file (TOML)")->required();
     of_kind
         ->add_flag_callback(

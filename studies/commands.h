@@ -15,6 +15,7 @@ int run_study(const CommandOptions& options);
 struct StudyKind {
   std::string name, about;
   int (*run)(const CommandOptions&);
+  bool seeded;              ///< draws numbers, so that --seed means something
   std::string (*fields)();  ///< reference of its study file, as Markdown
 };
 const std::vector<StudyKind>& study_kinds();

@@ -48,6 +48,10 @@ const std::vector<std::string>& quantity_groups() {
 
 std::string quantity_group(const std::string& quantity) { return group_of(quantity).name; }
 
+bool of_one_element(const std::string& quantity) {
+  return quantity.find(".normal_n.") != quantity.npos || quantity.find(".tangential_n.") != quantity.npos;
+}
+
 std::vector<double> as_errors(const std::vector<std::string>& quantities, const std::vector<double>& reference,
                               const std::vector<double>& differences) {
   std::map<std::string, double> largest;  // by range and group
@@ -111,7 +115,10 @@ std::vector<double> reference_band(const std::vector<NumericalRun>& runs, std::s
       const double last = std::abs(meshes[0]->values[q] - ref.values[q]);
       const double ratio = static_cast<double>(ref.elements) / meshes[0]->elements;
       double order = 1;
-      if (meshes.size() > 1 && last > 0)
+      // From three meshes, if they are spaced evenly; else first order.
+      if (meshes.size() > 1 && last > 0 &&
+          std::abs(std::log(static_cast<double>(meshes[0]->elements) / meshes[1]->elements) / std::log(ratio) - 1) <
+              0.1)
         order = std::clamp(std::log(std::abs(meshes[1]->values[q] - meshes[0]->values[q]) / last) / std::log(ratio),
                            0.5, 2.0);
       mesh = last / (std::pow(ratio, order) - 1);

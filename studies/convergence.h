@@ -12,6 +12,9 @@ const std::vector<std::string>& quantity_groups();
 /// The group of a quantity by its name; "other" if it is none of the usual ones.
 std::string quantity_group(const std::string& quantity);
 
+/// Whether a quantity is of one element, so that it goes with the element's length: forces per pass.
+bool of_one_element(const std::string& quantity);
+
 /// Errors of `values` against `reference`, by quantity: lives as a difference of log10; slips and friction forces, some
 /// of which are next to nothing, relative to the largest of their group in the range; all else relative to itself.
 std::vector<double> errors_of(const std::vector<std::string>& quantities, const std::vector<double>& reference,

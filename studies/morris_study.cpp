@@ -100,7 +100,8 @@ std::string MorrisStudy::text(const nlohmann::json& answer) {
       "their magnitudes, with its standard error; sigma, their scatter (curvature and interactions).\n",
       answer["trajectories"].get<int>(), answer["levels"].get<int>());
   for (const auto& [name, by_parameter] : answer["quantities"].items()) {
-    const bool floor = by_parameter.begin()->contains("noise_floor");
+    const bool floor =
+        std::any_of(by_parameter.begin(), by_parameter.end(), [](const auto& v) { return v.contains("noise_floor"); });
     std::vector<std::string> header{"parameter", "mu", "mu*", "error", "sigma", "effects"};
     if (floor) header.insert(header.end(), {"of noise", "verdict"});
     Table table(header);

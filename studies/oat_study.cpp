@@ -15,7 +15,7 @@ namespace {
 
 bool ends(const std::string& name, std::string_view ending) { return name.ends_with(ending); }
 
-bool is_life(const std::string& q) { return ends(q, "log10_life_h"); }
+bool is_life(const std::string& q) { return ends(q, "life_h"); }
 
 std::vector<double> values_of(const std::vector<Answer>& answers, std::size_t q) {
   std::vector<double> v;
@@ -23,8 +23,6 @@ std::vector<double> values_of(const std::vector<Answer>& answers, std::size_t q)
     if (a.ok()) v.push_back(a.values[q]);
   return v;
 }
-
-double decibel(double change) { return change > -1 ? 20 * std::log10(1 + change) : -200; }
 
 std::string signed_text(double x, int digits) { return fmt::format("{:+.{}f}", x, digits); }
 
@@ -81,12 +79,23 @@ OatStudy::OatStudy(const LoadedProblem& problem, const OatSettings& settings, Re
       c.changed.x[i] = *value;
       comparisons_.push_back(std::move(c));
     }
+    if (!p.start)
+      log.add(SpecPath{}.child("parameter").element(i), log.line(fmt::format("parameter[{}]", i)),
+              "has no nominal value", "start, both bounds or the mean of a distribution");
     if (!p.lower && !p.upper)
       log.add(SpecPath{}.child("parameter").element(i), log.line(fmt::format("parameter[{}]", i)),
               "has no bound to go to", "lower, upper or both");
   }
   for (std::size_t i = 0; i < settings.change.size(); ++i) {
     const ChangeSpec& change = settings.change[i];
+    const auto refuse_unseen = [&](bool said, const char* says, const char* list, bool empty) {
+      const SpecPath at = study.child("change").element(i).child(says);
+      if (said && empty)
+        log.add(at, log.line(at.place), fmt::format("there is no quantity to see it in: study.{} is empty", list), "");
+    };
+    const bool spikes = change.says_magnitude == Verdict::spikes;
+    refuse_unseen(change.says_frequency.has_value(), "says_frequency", "frequency", settings.frequency.empty());
+    refuse_unseen(spikes, "says_magnitude", "peak", settings.peak.empty());
     refuse_setting(study.child("change").element(i).child("base"), change.base);
     refuse_setting(study.child("change").element(i).child("set"), change.set);
     Comparison c{change, {change.base, start}, {change.base, start}};
@@ -177,16 +186,17 @@ nlohmann::json OatStudy::row_of(const Comparison& c, const std::vector<Answer>& 
                           {"visible", e.visible},
                           {"responses_before", e.responses_before},
                           {"responses_after", e.responses_after}};
+    const double ratio = e.before != 0 ? e.after / e.before : 0;
     if (is_life(name))
-      effect["life_factor"] = std::pow(10, e.after - e.before);
-    else if (e.before != 0)
-      effect["db"] = decibel(e.change);
+      effect["life_factor"] = ends(name, "log10_life_h") ? std::pow(10, e.after - e.before) : ratio;
+    else if (ratio > 0)
+      effect["db"] = 20 * std::log10(ratio);
     row["effects"][name] = std::move(effect);
   }
   row["magnitude"] = verdict_of(magnitudes);
-  row["frequency"] = verdict_of(frequencies);
   const std::string spikes = verdict_of(peaks);
-  row["peak"] = spikes;
+  if (!frequencies.empty()) row["frequency"] = verdict_of(frequencies);
+  if (!peaks.empty()) row["peak"] = spikes;
   if (c.change.says_magnitude) {
     row["says_magnitude"] = std::string(enum_name(*c.change.says_magnitude));
     row["agrees_magnitude"] = agrees(*c.change.says_magnitude, row["magnitude"], spikes);
@@ -216,12 +226,14 @@ nlohmann::json OatStudy::solve(StudyRun& run) const {
   answer["visible"] = settings_.visible;
   answer["replicates"] = copies;
   answer["variants"] = nlohmann::json::array();
+  bool any = false;
   for (const VariantSpec& variant : settings_.variant) {
     nlohmann::json table{{"name", variant.name}, {"changes", nlohmann::json::array()}};
     int said = 0, agreed = 0;
     for (const Comparison& c : comparisons_) {
       const std::vector<Answer> base = take(), changed = take();
       nlohmann::json row = row_of(c, base, changed);
+      any = any || row.contains("effects");
       for (const char* key : {"agrees_magnitude", "agrees_frequency"})
         if (row.contains(key)) ++said, agreed += row[key].get<bool>();
       table["changes"].push_back(std::move(row));
@@ -230,6 +242,7 @@ nlohmann::json OatStudy::solve(StudyRun& run) const {
     table["agreed"] = agreed;
     answer["variants"].push_back(std::move(table));
   }
+  if (!any) answer["error"] = "no comparison has an answer on both sides";
   return answer;
 }
 
@@ -267,7 +280,7 @@ std::string OatStudy::text(const nlohmann::json& answer) {
         if (e["responses_before"].get<int>() > 1 || e["responses_after"].get<int>() > 1) cell += " c";
         cells.push_back(cell);
       }
-      for (const char* key : {"magnitude", "frequency", "peak"}) cells.push_back(row[key]);
+      for (const char* key : {"magnitude", "frequency", "peak"}) cells.push_back(row.value(key, "-"));
       if (said) {
         std::string says, agreement;
         for (const char* what : {"magnitude", "frequency"}) {

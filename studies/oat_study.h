@@ -59,7 +59,7 @@ struct OatSettings {
     v("standard_errors", standard_errors, within(0, 100),
       "a difference of means below this many of its standard errors is noise");
     v("magnitude", magnitude, any_text,
-      "quantities that the verdict on the magnitude looks at; none: all but lives, frequencies, peaks");
+      "quantities that the verdict on the magnitude looks at; none: all but lives and those of the two lists below");
     v("frequency", frequency, any_text, "quantities that the verdict on the frequency looks at");
     v("peak", peak, any_text, "quantities in which spikes show");
     v("change", change, any_text, "what is changed; beside every parameter, which goes to its lower and upper bound");

@@ -60,7 +60,8 @@ StabilityStudy::StabilityStudy(const LoadedProblem& problem, const StabilitySett
     return;
   }
   if (!problem.spec.quantities.empty())
-    log.add(SpecPath{}.child("quantities"), log.line("quantities"), "this kind of study records its own", "no quantities");
+    log.add(SpecPath{}.child("quantities"), log.line("quantities"), "this kind of study records its own",
+            "no quantities");
   if (!problem.spec.parameter.empty())
     log.add(SpecPath{}.child("parameter"), log.line("parameter[0]"), "this kind of study has none",
             "[[study.variation]], [[study.extreme]]");
@@ -131,7 +132,6 @@ PointModel StabilityStudy::model(int threads) const {
 nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
   std::vector<Bisection> all;
   nlohmann::json rows = nlohmann::json::array();
-  std::vector<nlohmann::json> row_of;
   for (std::size_t i = 0; i < cases_.size(); ++i)
     for (const Scheme scheme : settings_.schemes) {
       Bisection b;

@@ -17,7 +17,8 @@ namespace {
 
 template <class Kind>
 StudyKind kind(const char* name, const char* about) {
-  return {name, about, run_kind<Kind>, reference_of<StudySpec<typename Kind::Settings>>};
+  constexpr bool seeded = requires(typename Kind::Settings s) { s.seed; };
+  return {name, about, run_kind<Kind>, seeded, reference_of<StudySpec<typename Kind::Settings>>};
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ nlohmann::json UncertaintyStudy::scatter(const std::string& quantity, std::vecto
                    {"standard_deviation", m.standard_deviation},
                    {"standard_error", m.standard_deviation / std::sqrt(static_cast<double>(values.size()))}};
   for (const double p : settings_.percentiles) {
-    const std::string key = fmt::format("{:g}", p);
+    const std::string key = fmt::format("{}", p);
     j["percentiles"][key] = percentile(values, p / 100);
     j["percentile_intervals"][key] = json_of(percentile_interval(values, p / 100, settings_.confidence));
     if (failed > 0) j["percentiles_by_failures"][key] = json_of(failed_at_an_end(values, p / 100, failed));
@@ -191,7 +191,7 @@ std::string UncertaintyStudy::text(const nlohmann::json& answer) {
     if (lost > 0) header.emplace_back("by failures");
     Table table(header);
     for (const double p : order) {
-      const std::string key = fmt::format("{:g}", p);
+      const std::string key = fmt::format("{}", p);
       std::vector<std::string> row{key, cell(q["percentiles"][key], 5), interval(q["percentile_intervals"][key])};
       if (lost > 0) {
         const auto& b = q["percentiles_by_failures"][key];

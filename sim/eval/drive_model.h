@@ -15,7 +15,7 @@ struct DriveModelOptions {
   int threads = 0;  ///< 0: as many as the machine has
   LaneUse use = LaneUse::drives;
   bool retry = true;
-  std::optional<double> step_budget = {};  ///< steps a range may take
+  std::optional<double> step_budget = {};  ///< force evaluations that a range may take
   const MeasuredSpeed* measured = nullptr;
 };
 

@@ -122,13 +122,14 @@ std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const Evaluat
   return packs;
 }
 
-// A run may be another range's of the same speed.
-std::shared_ptr<const RangeResult> named(const std::shared_ptr<const RangeResult>& result, const std::string& name) {
-  if (result->name == name) return result;
+// A run may be another range's of the same speed; what it cost is counted once.
+std::shared_ptr<const RangeResult> named(const std::shared_ptr<const RangeResult>& result, const std::string& name,
+                                         bool pays) {
+  if (result->name == name && pays) return result;
   auto copy = std::make_shared<RangeResult>(*result);
   copy->name = copy->load.name = name;
   if (!copy->summary.name.empty()) copy->summary.name = name;
-  copy->processor_s = 0;
+  if (!pays) copy->processor_s = 0;
   return copy;
 }
 
@@ -225,7 +226,7 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   std::atomic<bool> lost = false;
   const auto complete = [&](std::size_t i) {
     for (std::size_t r = 0; r < keys[i].size(); ++r)
-      results[i].ranges.push_back(named(memo_.at(keys[i][r]), names[i][r]));
+      results[i].ranges.push_back(named(memo_.at(keys[i][r]), names[i][r], paid_.insert(keys[i][r]).second));
     finish(points[i], names[i], results[i]);
     if (on_finished) on_finished(i, results[i]);
   };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "sim/eval/quantities.h"
@@ -50,7 +51,7 @@ struct EvaluatorOptions {
   LaneUse use = LaneUse::drives;
   bool retry = true;                  ///< a failed range runs once more at half its step
   std::vector<std::string> ranges;    ///< names; empty: all
-  std::optional<double> step_budget;  ///< a drive of which a range needs more steps is not run
+  std::optional<double> step_budget;  ///< a drive of which a range needs more force evaluations is not run
   const MeasuredSpeed* measured = nullptr;
 };
 
@@ -73,6 +74,7 @@ class Evaluator {
  private:
   EvaluatorOptions options_;
   std::unordered_map<std::string, std::shared_ptr<const RangeResult>> memo_;
+  std::unordered_set<std::string> paid_;  ///< keys whose cost a point has been given
   std::size_t simulations_ = 0, reused_ = 0;
 };
 
