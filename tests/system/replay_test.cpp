@@ -38,6 +38,17 @@ TEST_F(Replay, OfAPointOfADriveGivesTheSameBits) {
   EXPECT_TRUE(fs::exists(folder / "p.html"));
 }
 
+TEST_F(Replay, OfARangeThatEndedEarlyGivesTheSameBits) {
+  write("e.toml",
+        "scene = \"drive.toml\"\nquantities = [\"fast.pulley.driven.hub_load_n.mean\"]\n[study]\nphases = "
+        "2\nramp_factors = [1]\n"
+        "perturbations = 2\nline_points = 4\n");
+  ASSERT_EQ(study("noise", "e", {"--set", "profile.settled_within=0.05", "--set", "profile.evaluate_s=0.03"}).code, 0);
+  const Answer a = replay("e.jsonl", 0);
+  ASSERT_EQ(a.code, 0) << a.err;
+  EXPECT_EQ(a.json()["identical"], true) << a.out;
+}
+
 TEST_F(Replay, OfPointsOfStabilityGivesTheSameStates) {
   write("s.toml",
         "scene = \"drive.toml\"\n[study]\nschemes = []\n[[study.extreme]]\nname = \"as it is\"\nset = []\n"
