@@ -7,6 +7,8 @@
 #include <exception>
 #include <iostream>
 
+#include "calibrate/commands.h"
+#include "calibrate/twin.h"
 #include "results/commands.h"
 #include "sim/scene/scene_io.h"
 #include "studies/commands.h"
@@ -83,6 +85,17 @@ void driver_flags(CLI::App& app, CommandOptions& o, bool seeded) {
   app.add_option("--out", o.out, "HDF5 result file; its log stands beside it; by default named after the study file")
       ->type_name("FILE.h5")
       ->check(not_empty());
+}
+
+void fields_flag(CLI::App& app, std::string (*fields)()) {
+  app.add_flag_callback(
+         "--fields",
+         [fields] {
+           std::cout << fields();
+           throw CLI::Success();
+         },
+         "print the reference of the file's fields as Markdown and exit")
+      ->trigger_on_parse();
 }
 
 std::string joined(int argc, char** argv) {
@@ -179,15 +192,7 @@ int run(int argc, char** argv) {
     common_flags(*of_kind, o, shorthand);
     driver_flags(*of_kind, o, kind.seeded);
     of_kind->add_option("study", scene, "study file (TOML)")->required();
-    of_kind
-        ->add_flag_callback(
-            "--fields",
-            [fields = kind.fields] {
-              std::cout << fields();
-              throw CLI::Success();
-            },
-            "print the reference of the study file's fields as Markdown and exit")
-        ->trigger_on_parse();
+    fields_flag(*of_kind, kind.fields);
     of_kind->callback([&o, name = kind.name] { o.kind = name; });
     of_kind->footer("Example:\n  beltlife study " + kind.name + " studies/examples/" + kind.name +
                     ".toml\nA run that is stopped goes on with the same command. Fields of the file: beltlife study " +
@@ -199,6 +204,32 @@ int run(int argc, char** argv) {
       "  beltlife study noise studies/examples/noise.toml\n"
       "  beltlife study oat studies/examples/oat.toml --out oat.h5 && beltlife report oat.h5\n"
       "  beltlife study sobol --fields");
+
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "fit parameters to measured spectra or numbers, with intervals");
+  common_flags(*calibrate, o, shorthand);
+  driver_flags(*calibrate, o, false);
+  calibrate->add_option("study", scene, "calibration file (TOML)")->required();
+  fields_flag(*calibrate, beltlife::calibrate_fields);
+  calibrate->footer(
+      "Examples:\n"
+      "  beltlife calibrate calibrate/examples/two_pulley.toml\n"
+      "  beltlife calibrate calibrate/examples/twin_fine.toml --out twin.h5 && beltlife report twin.h5\n"
+      "A run that is stopped goes on with the same command. Fields of the file: --fields, or calibrate/README.md.");
+
+  CLI::App* twin = app.add_subcommand(
+      "twin", "make records out of the model, with hidden parameters and noise, to try a calibration on");
+  common_flags(*twin, o, shorthand);
+  threads_flag(*twin, o, "threads over ranges, 0: all");
+  twin->add_option("--seed", o.seed, "seed of the noise, instead of the file's")
+      ->type_name("N")
+      ->check(whole_number_up_to_9e15());
+  twin->add_option("--out", o.out, "beginning of the files' names, PREFIX_RANGE.csv; by default the twin file's")
+      ->type_name("PREFIX")
+      ->check(not_empty());
+  twin->add_option("twin", scene, "twin file (TOML)")->required();
+  fields_flag(*twin, beltlife::twin_fields);
+  twin->footer("Example:\n  beltlife twin calibrate/examples/small_twin.toml --out build/small");
 
   CLI::App* replay = app.add_subcommand("replay", "run one point of a study again, with full output");
   replay->add_option("file", scene, "log (.jsonl) or result file (.h5) of a study, calibration or search")->required();
@@ -226,7 +257,7 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *modes || *simulate || *report || *study || *replay) o.scenes = {scene};
+  if (*check || *modes || *simulate || *report || *study || *calibrate || *twin || *replay) o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
@@ -235,6 +266,8 @@ int run(int argc, char** argv) {
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
   if (*report) return beltlife::run_report(o);
+  if (*twin) return beltlife::run_twin(o);
+  if (*calibrate) return beltlife::run_calibrate(o);
   if (*study) return beltlife::run_study(o);
   if (*replay) return beltlife::run_replay(o);
   std::cerr << app.help();

@@ -39,6 +39,8 @@ constexpr StudyKindPage kinds[] = {
      surrogate_part, true, "The surrogate has learnt nothing of what failed."},
     {"study uncertainty", "Uncertainty", "how far quantities scatter with the scatter of the parameters",
      uncertainty_part, true, "They are missing from every percentile and share."},
+    {"calibrate", "Calibration", "with which parameters the model answers as was measured", calibrate_part, false,
+     "A step that fails is shortened, and a start that fails is passed over."},
 };
 
 /// A kind that has no row has the common sections, and its answer as it is.

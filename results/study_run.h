@@ -54,6 +54,7 @@ class StudyRun {
   nlohmann::json finish(nlohmann::json answer);
   const StudyRecord& record() const { return journal_.record(); }
   const std::string& out() const { return out_; }
+  int threads() const { return options_.threads; }
 
  private:
   CommandOptions options_;

@@ -7,6 +7,7 @@
 
 #include "sim/model.h"
 #include "sim/scene/pitch_line.h"
+#include "sim/scene/pulley_place.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -42,8 +43,9 @@ void compile_pulleys(Model& m) {
   m.pulleys = static_cast<int>(m.scene.pulley.size());
   for (const auto& p : m.scene.pulley) {
     const bool front = p.side == Side::front;
-    m.pulley_x.push_back(p.x_mm * 1e-3);
-    m.pulley_y.push_back(p.y_mm * 1e-3);
+    const PulleyPlace place = pulley_place(m.scene, p);
+    m.pulley_x.push_back(place.x_mm * 1e-3);
+    m.pulley_y.push_back(place.y_mm * 1e-3);
     m.pulley_radius.push_back(pitch_diameter_mm(m.scene, p) * 5e-4);
     m.pulley_friction.push_back(p.friction.value_or(front ? m.scene.belt.friction_front : m.scene.belt.friction_back));
     m.body_name.push_back(p.name);
@@ -138,6 +140,22 @@ void compile_train(Model& m, std::string_view file) {
   }
 }
 
+// The scene of a model states all its numbers: where the pulley on the arm is placed, and a torque that was solved for
+// in place of the pretension that asked for it. Compiled again it is the same drive.
+void fill_in(SceneSpec& scene, const StaticState& statics) {
+  for (PulleySpec& p : scene.pulley) {
+    const PulleyPlace place = pulley_place(scene, p);
+    p.x_mm = place.x_mm;
+    p.y_mm = place.y_mm;
+  }
+  if (!scene.tensioner || scene.tensioner->spring_torque_n_m) return;
+  scene.tensioner->spring_torque_n_m = statics.spring_torque;
+  scene.belt.pretension_n.reset();
+  if (!scene.belt.length_catalogue_mm) return;
+  scene.belt.length_catalogue_mm.reset();
+  scene.belt.unstretched_length_mm = 1e3 * statics.unstretched_length;
+}
+
 void compile_tensioner(Model& m) {
   if (!m.scene.tensioner) return;
   const TensionerSpec& s = *m.scene.tensioner;
@@ -150,7 +168,7 @@ void compile_tensioner(Model& m) {
   const double cg = s.cg_distance_mm * 1e-3;
   t.inertia = s.inertia_kg_m2 + s.mass_kg * cg * cg +
               m.scene.pulley[t.pulley].mass_kg * (t.arm_x * t.arm_x + t.arm_y * t.arm_y);
-  t.spring_torque = m.statics.placed.length_per_arm_angle > 0 ? s.spring_torque_n_m : -s.spring_torque_n_m;
+  t.spring_torque = m.statics.placed.length_per_arm_angle > 0 ? m.statics.spring_torque : -m.statics.spring_torque;
   t.spring_rate = s.spring_rate_n_m_per_rad;
   t.damping = s.damping_n_m_s_per_rad;
   t.friction_torque = s.friction_torque_n_m;
@@ -225,6 +243,7 @@ Model compile(const SceneSpec& scene, std::string_view file) {
     m.statics.unstretched_length = *unstretched_length_mm(scene.belt) * 1e-3;
   else
     m.statics = solve_statics(scene, file);
+  fill_in(m.scene, m.statics);
   m.belt = compile_belt(scene.belt, m.statics.unstretched_length);
   m.contact = compile_contact(scene.contact, scene.belt, m.belt.element_length);
   compile_pulleys(m);

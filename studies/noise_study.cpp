@@ -8,6 +8,7 @@
 #include <random>
 
 #include "results/table.h"
+#include "sim/eval/difference_noise.h"
 #include "studies/noise.h"
 
 namespace beltlife {

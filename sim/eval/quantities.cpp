@@ -27,6 +27,10 @@ std::vector<Quantity> quantities_of(const RangeSummary& s) {
       add(fmt::format("{}.speed_rpm.order_{:g}", s.output->body, line.order), line.speed_rpm);
       add(fmt::format("{}.torque_n_m.order_{:g}", s.output->body, line.order), line.torque_n_m);
     }
+    for (const BandLine& line : s.output->bands) {
+      add(s.output->body + ".speed_rpm." + band_name(line.band), line.speed_rpm);
+      add(s.output->body + ".torque_n_m." + band_name(line.band), line.torque_n_m);
+    }
   }
   for (const SpanSummary& span : s.spans) {
     add("span." + span.name + ".tension_n.mean", span.tension_n_mean);
@@ -103,6 +107,7 @@ std::vector<std::string> quantity_names(const Model& m) {
       s.output.emplace();
       s.output->body = m.scene.output->body;
       for (double order : default_orders()) s.output->orders.push_back({order, 0, 0, 0});
+      for (const Band& band : octave_bands) s.output->bands.push_back({band, 0, 0});
     }
     for (int p = 0; p < m.pulleys; ++p) {
       s.spans.push_back({span_name(m.scene, static_cast<std::size_t>(p)), 0, 0, 0, 0, 0});

@@ -48,8 +48,8 @@ constexpr std::array<Ending, 28> endings{{{"_n_m_s_per_rad", "N m s/rad"},
 bool qualifies(std::string_view part) {
   constexpr std::array<std::string_view, 3> statistics{"mean", "min", "max"};
   const auto among = [&](const auto& words) { return std::find(words.begin(), words.end(), part) != words.end(); };
-  return part.find_first_not_of("0123456789") == part.npos || part.starts_with("order_") || among(statistics) ||
-         among(energy_names) || among(EnumNames<PassForce>::names);
+  return part.find_first_not_of("0123456789") == part.npos || part.starts_with("order_") || part.starts_with("band_") ||
+         among(statistics) || among(energy_names) || among(EnumNames<PassForce>::names);
 }
 
 std::string unit_of_part(std::string_view part) {

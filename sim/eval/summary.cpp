@@ -36,6 +36,13 @@ Extent extent(std::span<const double> v) {
   return e;
 }
 
+/// Every band stands here, whatever the window could tell, so that names depend on the scene alone.
+std::vector<BandLine> band_lines(const std::vector<double>& of_speed, const std::vector<double>& of_torque) {
+  std::vector<BandLine> lines;
+  for (std::size_t b = 0; b < octave_bands.size(); ++b) lines.push_back({octave_bands[b], of_speed[b], of_torque[b]});
+  return lines;
+}
+
 OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord& window) {
   OutputSummary out;
   out.body = m.scene.output->body;
@@ -50,7 +57,11 @@ OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord
   out.torque_n_m_max = of_torques.high;
   out.speed_peak_hz = peak_frequency(speed, m.scene.solver.sample_rate_hz);
   out.torque_peak_hz = peak_frequency(torque, m.scene.solver.sample_rate_hz);
-  if (m.driver.body < 0) return out;
+  if (m.driver.body < 0) {
+    const std::vector<double> unknown(octave_bands.size(), std::nan(""));
+    out.bands = band_lines(unknown, unknown);
+    return out;
+  }
   const auto angle = stretch(run, window, "driver.angle_rad");
   const auto orders = default_orders();
   const auto of_speed = track_orders(speed, angle, orders), of_torque = track_orders(torque, angle, orders);
@@ -63,6 +74,9 @@ OutputSummary output_of(const Model& m, const RunRecord& run, const WindowRecord
   for (double order : orders)
     out.orders.push_back(
         {order, order * window.crank_rpm / 60, amplitude(of_speed, order), amplitude(of_torque, order)});
+  const double rate = m.scene.solver.sample_rate_hz;
+  out.bands =
+      band_lines(remainder_bands(speed, angle, of_speed, rate), remainder_bands(torque, angle, of_torque, rate));
   return out;
 }
 

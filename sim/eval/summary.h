@@ -7,6 +7,7 @@
 
 #include "sim/model.h"
 #include "sim/record.h"
+#include "sim/signal/bands.h"
 
 namespace beltlife {
 
@@ -17,6 +18,14 @@ struct OrderLine {
   double torque_n_m = 0;  ///< likewise
 };
 
+/// What the orders leave between two frequencies, as the amplitude of the sine of the same power; not a number where
+/// the window cannot tell (Nyquist, length).
+struct BandLine {
+  Band band;
+  double speed_rpm = 0;
+  double torque_n_m = 0;
+};
+
 /// The two outputs that are compared with measurements.
 struct OutputSummary {
   std::string body;
@@ -25,6 +34,7 @@ struct OutputSummary {
   /// Where the spectrum is highest; not a number in a window too short for one.
   double speed_peak_hz = 0, torque_peak_hz = 0;
   std::vector<OrderLine> orders;
+  std::vector<BandLine> bands;  ///< octave_bands, in their order
 };
 
 struct SpanSummary {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "sim/scene/pitch_line.h"
+#include "sim/scene/pulley_place.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -47,13 +48,16 @@ int orientation_of(const SceneSpec& scene) {
   }
   double area = 0;
   for (std::size_t i = 0; i < scene.pulley.size(); ++i) {
-    const PulleySpec &a = scene.pulley[i], &b = scene.pulley[(i + 1) % scene.pulley.size()];
+    const PulleyPlace a = pulley_place(scene, scene.pulley[i]);
+    const PulleyPlace b = pulley_place(scene, scene.pulley[(i + 1) % scene.pulley.size()]);
     area += a.x_mm * b.y_mm - b.x_mm * a.y_mm;
   }
   return area < 0 ? -1 : 1;
 }
 
 std::string key_of(const SceneSpec& scene, std::size_t pulley) {
+  if (scene.tensioner && scene.tensioner->arm_angle_deg && scene.tensioner->pulley == scene.pulley[pulley].name)
+    return "tensioner.arm_angle_deg";
   return "pulley." + scene.pulley[pulley].name + ".x_mm";
 }
 
@@ -68,9 +72,10 @@ double distance_to_span(const Span& span, double x, double y) {
 struct Arm {
   const TensionerSpec& spec;
   double sense;
+  double placed_torque;
   ArmStops stops = arm_stops_of(spec, sense);
   double torque(double angle) const {
-    return sense * spec.spring_torque_n_m - spec.spring_rate_n_m_per_rad * angle + stops.elastic_torque(angle);
+    return sense * placed_torque - spec.spring_rate_n_m_per_rad * angle + stops.elastic_torque(angle);
   }
 };
 
@@ -161,15 +166,67 @@ void refuse_infeasible(const SceneSpec& scene, const Route& route, bool closed, 
 
 // The field that states the belt's length, and what to add to lengths in refusals.
 std::string length_key(const SceneSpec& scene) {
+  if (scene.belt.length_catalogue_mm) return "belt.length_catalogue_mm";
   return scene.belt.effective_length_mm ? "belt.effective_length_mm" : "belt.unstretched_length_mm";
 }
 const char* along_cord(const SceneSpec& scene) {
   return scene.belt.effective_length_mm ? " along the cord without tension" : "";
 }
 
+// Whether the spring's torque is to be solved for the pretension.
+bool torque_is_open(const SceneSpec& scene) { return scene.tensioner && !scene.tensioner->spring_torque_n_m; }
+
+// Of the lengths that can be had, the one nearest to what an arm at rest as placed would want; mm.
+double from_catalogue(const std::vector<double>& lengths, double wanted) {
+  return *std::min_element(lengths.begin(), lengths.end(),
+                           [&](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); });
+}
+
+// The arm's angle next to the placed one at which a belt of the given length has the pretension. The search ends where
+// turning the arm changes the path the other way: there no spring of this sense holds it.
+double angle_of_pretension(const SceneSpec& scene, const StaticState& s, std::string_view file) {
+  const double taut = s.unstretched_length * (1 + *scene.belt.pretension_n / scene.belt.axial_stiffness_n);
+  const auto longer = [&](double a) {
+    const Layout l = layout_at(scene, s.orientation, a);
+    return l.length_per_arm_angle * s.placed.length_per_arm_angle > 0 ? l.route.length - taut : std::nan("");
+  };
+  double angle = 0;
+  if (!root_near_zero(longer, std::numbers::pi, angle))
+    refuse(file, length_key(scene),
+           fmt::format("no arm angle gives a belt of {:g} mm{} the tension of {:g} N: its path would be {:.1f} mm",
+                       1e3 * s.unstretched_length, along_cord(scene), *scene.belt.pretension_n, 1e3 * taut),
+           fmt::format("about {:.1f} mm{}, with which the arm rests where it is placed",
+                       1e3 * s.placed.route.length / (taut / s.unstretched_length), along_cord(scene)));
+  return angle;
+}
+
+// The torque at the placed position with which the spring holds the pretension at `angle`.
+double torque_of_pretension(const SceneSpec& scene, const StaticState& s, double angle, std::string_view file) {
+  constexpr double degree = std::numbers::pi / 180, most = 1e5;  // N m, the field's own limit
+  const TensionerSpec& t = *scene.tensioner;
+  const double sense = s.placed.length_per_arm_angle > 0 ? 1 : -1;
+  const ArmStops stops = arm_stops_of(t, sense);
+  if (const ArmStop stop = stops.at(angle, sense); stop != ArmStop::none)
+    refuse(file, std::string("tensioner.stop_") + (stop == ArmStop::lengthening ? "lengthening_deg" : "shortening_deg"),
+           fmt::format("the arm would rest {:.1f} degrees beyond this stop", std::abs(stops.depth(angle)) / degree),
+           fmt::format("more than {:.1f} degrees, or a belt of another length", std::abs(angle) / degree));
+  const double at_rest = *scene.belt.pretension_n * layout_at(scene, s.orientation, angle).length_per_arm_angle;
+  const double torque = sense * (at_rest + t.spring_rate_n_m_per_rad * angle);
+  if (!(torque >= 0 && torque <= most))
+    refuse(file, "tensioner.spring_torque_n_m",
+           fmt::format("to hold {:g} N at rest the spring would need {:g} N m where the arm is placed",
+                       *scene.belt.pretension_n, torque),
+           fmt::format("from 0 to {:g}: place the pulley nearer to where the arm rests, {:.1f} degrees away", most,
+                       std::abs(angle) / degree));
+  return torque;
+}
+
 // A polyester or aramid cord breaks at a few per cent.
 void refuse_overstretched(const SceneSpec& scene, const StaticState& s, std::string_view file) {
   const double strain = s.balance.route.length / s.unstretched_length - 1;
+  if (strain > 0.1 && torque_is_open(scene))
+    refuse(file, "belt.pretension_n", fmt::format("the belt would be stretched by {:.0f} % at rest", 100 * strain),
+           fmt::format("at most {:.0f} N for this belt", 0.1 * scene.belt.axial_stiffness_n));
   if (strain > 0.1)
     refuse(file, length_key(scene),
            fmt::format("the belt would be stretched by {:.0f} % at rest and carry {:.0f} N", 100 * strain,
@@ -185,9 +242,11 @@ std::string span_name(const SceneSpec& scene, std::size_t i) {
 
 std::vector<Circle> circles_of(const SceneSpec& scene, int orientation, double arm_angle) {
   std::vector<Circle> circles;
-  for (const auto& p : scene.pulley)
-    circles.push_back({p.x_mm * 1e-3, p.y_mm * 1e-3, pitch_diameter_mm(scene, p) * 5e-4,
+  for (const auto& p : scene.pulley) {
+    const PulleyPlace place = pulley_place(scene, p);
+    circles.push_back({place.x_mm * 1e-3, place.y_mm * 1e-3, pitch_diameter_mm(scene, p) * 5e-4,
                        p.side == Side::front ? orientation : -orientation});
+  }
   if (scene.tensioner) {
     Circle& c = circles[pulley_index(scene, scene.tensioner->pulley)];
     const double px = scene.tensioner->pivot_x_mm * 1e-3, py = scene.tensioner->pivot_y_mm * 1e-3;
@@ -266,15 +325,26 @@ StaticState solve_statics(const SceneSpec& scene, std::string_view file) {
   if (std::abs(gradient) < 1e-6)
     refuse(file, "tensioner.pivot_x_mm", "turning the arm does not change the length of the belt path",
            "a pivot off the line of the tensioner pulley's hub load");
-  const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0};
+  double angle = 0;
+  const bool open = torque_is_open(scene);
+  if (open) {
+    if (!scene.belt.pretension_n)
+      refuse(file, "tensioner.spring_torque_n_m", "missing key",
+             "a torque, or belt.pretension_n for which to solve it");
+    if (scene.belt.length_catalogue_mm)
+      s.unstretched_length = 1e-3 * from_catalogue(*scene.belt.length_catalogue_mm,
+                                                   1e3 * s.placed.route.length / (1 + *scene.belt.pretension_n / ea));
+    if (!scene.belt.balanced_as_placed.value_or(false)) angle = angle_of_pretension(scene, s, file);
+  }
+  s.spring_torque = open ? torque_of_pretension(scene, s, angle, file) : *scene.tensioner->spring_torque_n_m;
+  const Arm arm{*scene.tensioner, gradient > 0 ? 1.0 : -1.0, s.spring_torque};
 
   s.placed.tension = arm.torque(0) / gradient;
   s.placed_unstretched_length = s.placed.route.length / (1 + s.placed.tension / ea);
 
-  double angle = 0;
   if (scene.belt.balanced_as_placed.value_or(false)) {
     s.unstretched_length = s.placed_unstretched_length;
-  } else {
+  } else if (!open) {
     const auto imbalance = [&](double a) {
       const Layout l = layout_at(scene, s.orientation, a);
       if (std::isnan(l.route.length)) return std::nan("");

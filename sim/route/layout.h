@@ -10,11 +10,11 @@
 
 namespace beltlife {
 
-/// A signed, named distance: negative means the layout cannot be built.
+/// A signed, named distance: negative means the layout cannot be built, or breaks a limit that it is held to.
 struct Clearance {
   std::string name;   ///< "pulleys drive and idler_2", "wrap on idler_5", "belt drive-idler_2 and pulley crank"
   double value = 0;   ///< in `unit`
-  std::string unit;   ///< "mm" or "deg"
+  std::string unit;   ///< "mm", "deg", "N"; empty: a bare number
   std::string words;  ///< the refusal, where value < 0
   std::string key;    ///< scene field to look at first
 };
@@ -36,6 +36,7 @@ struct StaticState {
   double placed_unstretched_length = 0;  ///< m, of the belt that would be at rest with the arm as placed
   double placed_strain_tension = 0;  ///< N, what the belt of `unstretched_length` would carry with the arm as placed
   Layout balance;                    ///< arm at rest (frictionless)
+  double spring_torque = 0;          ///< N m, of the tensioner's spring with the arm as placed, given or solved
 };
 
 /// Circles of the scene for a path of this orientation with the arm turned by `arm_angle`.
@@ -44,8 +45,10 @@ std::vector<Circle> circles_of(const SceneSpec& scene, int orientation, double a
 /// Every signed distance of a layout, in m and degrees, whether feasible or not.
 std::vector<Clearance> clearances(const SceneSpec& scene, const Route& route);
 
-/// Solves the static balance. Throws BadInput, naming in words every clearance that is negative, or a belt length or
-/// torque for which no balance exists. Not for scenes with a ring.
+/// Solves the static balance; where the scene leaves the tensioner's torque open, it is solved for the pretension at
+/// the arm's rest, which is as placed, or where the belt of the given length has that tension. Throws BadInput, naming
+/// in words every clearance that is negative, or a belt length or torque for which no balance exists. Not for scenes
+/// with a ring.
 StaticState solve_statics(const SceneSpec& scene, std::string_view file = "scene");
 
 /// "drive-idler_2": the span from pulley i to the next.

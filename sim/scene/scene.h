@@ -49,6 +49,7 @@ struct BeltSpec {
   std::optional<double> effective_line_differential_mm;
   std::optional<double> pretension_n;
   std::optional<bool> balanced_as_placed;
+  std::optional<std::vector<double>> length_catalogue_mm;
   double axial_stiffness_n = 0;
   double axial_damping_n_s = 0;
   double bending_stiffness_n_m2 = 0;
@@ -71,9 +72,15 @@ struct BeltSpec {
       "tension of either strand at which effective_length_mm is measured: half the standard's measuring force");
     v("effective_line_differential_mm", effective_line_differential_mm, within(0, 100),
       "b_e, distance of the cord from the effective diameter (ISO 9981); needed where an effective value is given");
-    v("pretension_n", pretension_n, above(0, 1e6), "wanted tension at rest; the unstretched length is solved for");
+    v("pretension_n", pretension_n, above(0, 1e6),
+      "wanted tension at rest; the unstretched length is solved for, or, beside another statement of the length, "
+      "tensioner.spring_torque_n_m");
     v("balanced_as_placed", balanced_as_placed, any_text,
       "true: the tensioner is at rest where its pulley is placed; the unstretched length is solved for");
+    v("length_catalogue_mm", length_catalogue_mm, above(0, 1e5),
+      "unstretched lengths that can be had, for a spring torque that is solved for: taken is the one nearest to that "
+      "of "
+      "an arm at rest as placed");
     v("axial_stiffness_n", axial_stiffness_n, required(above(0, 1e9)), "EA, force per unit strain (thesis 2.28)");
     v("axial_damping_n_s", axial_damping_n_s, within(0, 1e6), "CA, force per unit strain rate (thesis 2.28)");
     v("bending_stiffness_n_m2", bending_stiffness_n_m2, within(0, 1e4), "EI (thesis 2.29)");
@@ -123,7 +130,8 @@ struct PulleySpec {
   template <class V>
   void visit(V& v) {
     v("name", name, required_text, "unique among pulleys and bodies");
-    v("x_mm", x_mm, required(within(-1e5, 1e5)), "centre; of the tensioner pulley: where the scene places it");
+    v("x_mm", x_mm, required(within(-1e5, 1e5)),
+      "centre; of the tensioner pulley: where the scene places it, unless tensioner.arm_angle_deg does");
     v("y_mm", y_mm, required(within(-1e5, 1e5)), "centre");
     v("pitch_diameter_mm", pitch_diameter_mm, above(0, 1e5),
       "twice the contact radius, on both belt sides; give exactly one of this, effective_diameter_mm");
@@ -145,7 +153,9 @@ struct TensionerSpec {
   double mass_kg = 0;
   double inertia_kg_m2 = 0;
   double cg_distance_mm = 0;
-  double spring_torque_n_m = 0;
+  std::optional<double> arm_angle_deg;
+  std::optional<double> arm_length_mm;
+  std::optional<double> spring_torque_n_m;
   double spring_rate_n_m_per_rad = 0;
   double damping_n_m_s_per_rad = 0;
   double friction_torque_n_m = 0;
@@ -166,8 +176,14 @@ struct TensionerSpec {
     v("mass_kg", mass_kg, required(within(0, 1e4)), "arm without its pulley");
     v("inertia_kg_m2", inertia_kg_m2, required(within(0, 1e4)), "arm about its centre of gravity, without its pulley");
     v("cg_distance_mm", cg_distance_mm, within(-1e4, 1e4), "centre of gravity from the pivot toward the pulley");
-    v("spring_torque_n_m", spring_torque_n_m, required(within(0, 1e5)),
-      "at the placed position, in the sense that lengthens the belt path");
+    v("arm_angle_deg", arm_angle_deg, within(-720, 720),
+      "direction from the pivot to the centre of the arm's pulley, counterclockwise from +x; with arm_length_mm it "
+      "places that pulley, whose own x_mm and y_mm then say nothing");
+    v("arm_length_mm", arm_length_mm, above(0, 1e5),
+      "distance from the pivot to the centre of the arm's pulley; beside arm_angle_deg only");
+    v("spring_torque_n_m", spring_torque_n_m, within(0, 1e5),
+      "at the placed position, in the sense that lengthens the belt path; absent: solved for belt.pretension_n, which "
+      "then stands beside one of balanced_as_placed, unstretched_length_mm, effective_length_mm, length_catalogue_mm");
     v("spring_rate_n_m_per_rad", spring_rate_n_m_per_rad, within(0, 1e6),
       "added torque per rotation in the sense that shortens the belt path");
     v("damping_n_m_s_per_rad", damping_n_m_s_per_rad, within(0, 1e4), "viscous damping at the pivot");

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/scene/pulley_place.h"
 #include "sim/scene/spec_path.h"
 
 namespace beltlife {
@@ -66,6 +67,9 @@ class SceneCheck {
         if (value) check(*value, path);
       } else if constexpr (std::same_as<T, std::vector<double>>) {
         for (std::size_t i = 0; i < value.size(); ++i) check(value[i], {path.element(i).shown, path.place});
+      } else if constexpr (std::same_as<T, std::optional<std::vector<double>>>) {
+        for (std::size_t i = 0; value && i < value->size(); ++i)
+          check((*value)[i], {path.element(i).shown, path.place});
       }
     });
   }
@@ -150,7 +154,14 @@ class SceneCheck {
       const SpecPath path = SpecPath{}.child("tensioner");
       refer(path.child("pulley"), tensioner->pulley, pulleys_);
       const PulleySpec* rider = pulley(tensioner->pulley);
-      if (rider && rider->x_mm == tensioner->pivot_x_mm && rider->y_mm == tensioner->pivot_y_mm) {
+      const SpecPath angle = path.child("arm_angle_deg"), reach = path.child("arm_length_mm");
+      if (tensioner->arm_angle_deg.has_value() != tensioner->arm_length_mm.has_value() &&
+          !log_.is_faulty(angle.place) && !log_.is_faulty(reach.place)) {
+        complain(tensioner->arm_angle_deg ? reach : angle, "missing key",
+                 "both of arm_angle_deg, arm_length_mm, or neither");
+      }
+      const PulleyPlace place = rider ? pulley_place(scene_, *rider) : PulleyPlace{};
+      if (rider && place.x_mm == tensioner->pivot_x_mm && place.y_mm == tensioner->pivot_y_mm) {
         complain(path.child("pivot_x_mm"), "the pivot is the centre of the arm's pulley", "an arm that has a length");
       }
       const bool inert = tensioner->inertia_kg_m2 > 0 || (rider && rider->mass_kg > 0) ||
@@ -247,9 +258,21 @@ class SceneCheck {
     const bool has_length = scene_.belt.unstretched_length_mm || scene_.belt.effective_length_mm;
     const int given = scene_.belt.unstretched_length_mm.has_value() + scene_.belt.effective_length_mm.has_value() +
                       scene_.belt.pretension_n.has_value() + is_balanced;
-    if (readable && given != 1) {
-      complain(length, fmt::format("{} of four ways to state the belt's length are given", given),
-               "exactly one of unstretched_length_mm, effective_length_mm, pretension_n, balanced_as_placed = true");
+    const bool torque_is_open = scene_.tensioner && !scene_.tensioner->spring_torque_n_m;
+    if (torque_is_open || log_.is_faulty("tensioner") || log_.is_faulty("tensioner.spring_torque_n_m")) {
+      if (readable && torque_is_open) check_open_torque();
+    } else {
+      if (readable && given != 1) {
+        complain(length, fmt::format("{} of four ways to state the belt's length are given", given),
+                 "exactly one of unstretched_length_mm, effective_length_mm, pretension_n, balanced_as_placed = true" +
+                     std::string(scene_.tensioner && scene_.belt.pretension_n && given == 2
+                                     ? "; or both, without tensioner.spring_torque_n_m, which is then solved for"
+                                     : ""));
+      }
+      if (scene_.belt.length_catalogue_mm) {
+        complain(belt.child("length_catalogue_mm"), "there is no spring torque to solve for",
+                 "a [tensioner] without spring_torque_n_m, and pretension_n");
+      }
     }
     if (scene_.belt.measuring_tension_n && readable && !scene_.belt.effective_length_mm) {
       complain(belt.child("measuring_tension_n"), "there is no effective length that was measured with it",
@@ -266,6 +289,30 @@ class SceneCheck {
     if (!scene_.pulley.empty()) complain(pulleys, "a scene with [ring] has no pulleys", "no [[pulley]]");
     if (readable && given == 1 && !has_length) {
       complain(is_balanced ? balanced : pretension, "a [ring] has no pulleys to fit", "unstretched_length_mm");
+    }
+  }
+
+  /// Without the spring's torque the pretension is given, and one statement of where the arm rests with it.
+  void check_open_torque() {
+    if (log_.is_faulty("tensioner.spring_torque_n_m") || log_.is_faulty("belt.length_catalogue_mm")) return;
+    const BeltSpec& b = scene_.belt;
+    const SpecPath belt = SpecPath{}.child("belt"), torque = SpecPath{}.child("tensioner").child("spring_torque_n_m");
+    constexpr std::string_view ways =
+        "exactly one of balanced_as_placed = true, unstretched_length_mm, effective_length_mm, length_catalogue_mm";
+    const int given = b.balanced_as_placed.value_or(false) + b.unstretched_length_mm.has_value() +
+                      b.effective_length_mm.has_value() + b.length_catalogue_mm.has_value();
+    if (!b.pretension_n) {
+      complain(torque, "missing key",
+               fmt::format("number from 0 to 100000; or belt.pretension_n for which to solve it, beside {}", ways));
+    } else if (given == 0) {
+      complain(torque, "missing key: belt.pretension_n alone does not say where the arm rests",
+               fmt::format("number from 0 to 100000, or {} in [belt]", ways));
+    } else if (given > 1) {
+      complain(belt.child("unstretched_length_mm"),
+               fmt::format("{} of four ways to say where the arm rests are given", given), std::string(ways));
+    }
+    if (b.length_catalogue_mm && b.length_catalogue_mm->empty()) {
+      complain(belt.child("length_catalogue_mm"), "has no entries", "at least one length");
     }
   }
 

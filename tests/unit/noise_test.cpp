@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "sim/eval/difference_noise.h"
+
 namespace beltlife {
 namespace {
 

@@ -66,7 +66,8 @@ TEST(SceneFiles, AlternativesHaveTheBaselinesBeltTrainDriverAndDutyCycle) {
       scene->pulley.clear();
       scene->belt.unstretched_length_mm.reset();
       scene->belt.balanced_as_placed.reset();
-      scene->tensioner->pivot_x_mm = scene->tensioner->pivot_y_mm = scene->tensioner->spring_torque_n_m = 0;
+      scene->tensioner->pivot_x_mm = scene->tensioner->pivot_y_mm = 0;
+      scene->tensioner->spring_torque_n_m = 0;
     }
     EXPECT_EQ(values_of(alternative), values_of(baseline)) << file;
   }

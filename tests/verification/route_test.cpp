@@ -98,7 +98,7 @@ TEST(Route, InBalanceSpringTorqueIsTensionTimesLengthDerivative) {
     const StaticState s = solve_statics(scene);
     const double sense = s.placed.length_per_arm_angle > 0 ? 1 : -1;
     const double torque =
-        sense * scene.tensioner->spring_torque_n_m - scene.tensioner->spring_rate_n_m_per_rad * s.balance.arm_angle;
+        sense * *scene.tensioner->spring_torque_n_m - scene.tensioner->spring_rate_n_m_per_rad * s.balance.arm_angle;
     // The angle is bisected to the last bit; the tension of a stiff belt turns 1e-16 rad into some 1e-9 of itself.
     EXPECT_NEAR(s.balance.tension * s.balance.length_per_arm_angle / torque, 1, 1e-8) << name;
     const double strain = s.balance.route.length / s.unstretched_length - 1;

@@ -136,7 +136,7 @@ TEST(Statics, TakeUpIsThatOfTheRoute) {
       // One-sided, towards the rest position: beyond the ends of the reach there may be no route.
       const double h = row.arm_angle > model.statics.balance.arm_angle ? -1e-6 : 1e-6;
       const double gradient = (length(row.arm_angle + h) - length(row.arm_angle)) / h;
-      const double tension = (sense * t.spring_torque_n_m - t.spring_rate_n_m_per_rad * row.arm_angle) / gradient;
+      const double tension = (sense * *t.spring_torque_n_m - t.spring_rate_n_m_per_rad * row.arm_angle) / gradient;
       EXPECT_NEAR(row.tension, tension, 1e-3 * std::abs(tension) + 1e-3) << name << " " << row.name;
       EXPECT_EQ(row.reason.empty(), row.name == "as placed" || row.name == "at rest") << row.reason;
       if (row.name == "at rest") {

@@ -167,9 +167,9 @@ TEST_P(TensionerSpring, TightensTheBeltAndMoreSoWhereThePathIsShorter) {
   const double lengthening = length_at(turn) > length_at(-turn) ? 1 : -1;
   Arm arm(model);
   const auto torque = [&](double angle) { return lengthening * arm.torque(angle, 0); };
-  EXPECT_NEAR(torque(0), scene.tensioner->spring_torque_n_m, 1e-12);
+  EXPECT_NEAR(torque(0), *scene.tensioner->spring_torque_n_m, 1e-12);
   EXPECT_NEAR(torque(-lengthening * turn),
-              scene.tensioner->spring_torque_n_m + turn * scene.tensioner->spring_rate_n_m_per_rad, 1e-12);
+              *scene.tensioner->spring_torque_n_m + turn * scene.tensioner->spring_rate_n_m_per_rad, 1e-12);
 }
 
 TEST_P(TensionerSpring, BalancesTheBeltAtRest) {
