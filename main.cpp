@@ -9,6 +9,7 @@
 
 #include "calibrate/commands.h"
 #include "calibrate/twin.h"
+#include "optimize/commands.h"
 #include "results/commands.h"
 #include "sim/scene/scene_io.h"
 #include "studies/commands.h"
@@ -119,6 +120,7 @@ int run(int argc, char** argv) {
       "  beltlife check sim/scenes/baseline.toml\n"
       "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two_pulley.h5\n"
       "  beltlife life sim/scenes/baseline.toml --set belt.friction_front=0.5\n"
+      "  beltlife optimize optimize/examples/small.toml\n"
       "Exit codes: 0 done, 1 usage, 2 bad input, 3 ran but failed, 4 a bug of ours.");
 
   CLI::App* check = app.add_subcommand(
@@ -217,6 +219,19 @@ int run(int argc, char** argv) {
       "  beltlife calibrate calibrate/examples/twin_fine.toml --out twin.h5 && beltlife report twin.h5\n"
       "A run that is stopped goes on with the same command. Fields of the file: --fields, or calibrate/README.md.");
 
+  CLI::App* optimize = app.add_subcommand(
+      "optimize",
+      "search layouts (pulley places, tensioner, wrap sides) for the longest life, within named clearances");
+  common_flags(*optimize, o, shorthand);
+  driver_flags(*optimize, o, true);
+  optimize->add_option("study", scene, "search file (TOML)")->required();
+  fields_flag(*optimize, beltlife::optimize_fields);
+  optimize->footer(
+      "Examples:\n"
+      "  beltlife optimize optimize/examples/small.toml\n"
+      "  beltlife optimize optimize/examples/thesis_quick.toml --out quick.h5 && beltlife report quick.h5\n"
+      "A run that is stopped goes on with the same command. Fields of the file: --fields, or optimize/README.md.");
+
   CLI::App* twin = app.add_subcommand(
       "twin", "make records out of the model, with hidden parameters and noise, to try a calibration on");
   common_flags(*twin, o, shorthand);
@@ -257,7 +272,8 @@ int run(int argc, char** argv) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *modes || *simulate || *report || *study || *calibrate || *twin || *replay) o.scenes = {scene};
+  if (*check || *modes || *simulate || *report || *study || *calibrate || *optimize || *twin || *replay)
+    o.scenes = {scene};
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
@@ -266,6 +282,7 @@ int run(int argc, char** argv) {
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
   if (*report) return beltlife::run_report(o);
+  if (*optimize) return beltlife::run_optimize(o);
   if (*twin) return beltlife::run_twin(o);
   if (*calibrate) return beltlife::run_calibrate(o);
   if (*study) return beltlife::run_study(o);

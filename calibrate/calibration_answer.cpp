@@ -131,12 +131,16 @@ nlohmann::json answer_of(const FitModel& model, const FitCourse& course, const I
   }
   j["cost"] = end.cost;
   j["ended"] = end.ended;
-  // Less than a tenth of a standard error to go, or nothing that the tolerance would have seen.
-  j["converged"] = in.remaining < 0.1 || in.remaining_cost <= course.options.tolerance * end.cost;
+  // Less than a tenth of a standard error to go, nothing that the tolerance would have seen, or what a rough cost
+  // leaves: then the standard errors hold it.
+  constexpr double rough = 1e-8;
+  j["converged"] = in.remaining < 0.1 || in.remaining_cost <= course.options.tolerance * end.cost ||
+                   (end.at_rest && model.noise() > rough && in.remaining < 1);
   j["remaining_standard_errors"] = in.remaining;
   j["confidence"] = confidence;
   j["degrees_of_freedom"] = in.freedom;
   j["residual_variance"] = in.residual_variance;
+  j["error_scale"] = in.scale;
   j["probability_of_residuals"] = in.unexplained;
   j["noise"] = model.noise();
   j["tolerance"] = course.options.tolerance;

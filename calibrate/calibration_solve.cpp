@@ -47,6 +47,11 @@ std::vector<std::string> remarks(const nlohmann::json& answer) {
         fmt::format("Not converged: the minimum is some {:.2g} standard errors away. More iterations, a larger "
                     "budget, or another start.",
                     answer["remaining_standard_errors"].get<double>()));
+  else if (const double left = answer["remaining_standard_errors"]; left > 0.1)
+    words.push_back(
+        fmt::format("The cost is rough: the fit is at rest {:.2g} standard errors from where its slope says the "
+                    "minimum is; the errors stated hold that.",
+                    left));
   for (const auto& [name, p] : answer["parameters"].items()) {
     if (p["at_bound"] != "no")
       words.push_back(
@@ -69,10 +74,9 @@ std::vector<std::string> remarks(const nlohmann::json& answer) {
     agreeing += f["ok"].get<bool>() && f["cost"].get<double>() <= best * 1.05 + 1e-300;
   }
   if (ended > 1)
-    words.push_back(agreeing == ended ? fmt::format("All {} fits ended at the same cost.", ended)
-                                      : fmt::format("{} of {} fits ended at the lowest cost; the others in minima of "
-                                                    "their own.",
-                                                    agreeing, ended));
+    words.push_back(
+        fmt::format("{} of {} fits, of a few iterations each, led within 5 % of the lowest cost; the best went on.",
+                    agreeing, ended));
   return words;
 }
 
@@ -100,7 +104,9 @@ nlohmann::json Calibration::solve(StudyRun& run) const {
     nlohmann::json answer{{"error", "no fit: " + course.fits[0].ended}, {"converged", false}};
     return answer;
   }
-  const Inference inference = infer(model, end, settings_.confidence, settings_.loss_scale);
+  const Inference inference = infer(model, end, settings_.confidence, settings_.loss_scale,
+                                    std::any_of(measurements_.begin(), measurements_.end(),
+                                                [](const Measurement& m) { return m.spec.model_error > 0; }));
   std::vector<std::size_t> profiled;
   constexpr std::size_t most_profiled = 6;
   if (settings_.profiles && problem_.spec.parameter.size() <= most_profiled)

@@ -39,7 +39,7 @@ struct ObservationSpec {
 
 struct CalibrationSettings {
   int starts = 3;
-  int screen = 16;
+  int screen = 64;
   int iterations = 200;
   int budget = 20000;
   std::optional<double> noise;
@@ -55,7 +55,8 @@ struct CalibrationSettings {
       "places from which the fit is begun: the file's start, then the best of the screen");
     v("screen", screen, within(0, 100000),
       "points spread between the bounds to find starts; without effect where a parameter has no bounds");
-    v("iterations", iterations, within(1, 100000), "of each fit, at most");
+    v("iterations", iterations, within(1, 100000),
+      "of the fit, at most; of several starts each gets eight, the best goes on");
     v("budget", budget, within(1, 1e7), "points in all after which no iteration is begun");
     v("noise", noise, within(0, 1),
       "relative noise of the model's quantities, which sets the steps of the derivatives; "

@@ -190,6 +190,7 @@ bool pass(FitModel& model, std::vector<double>& u, const std::vector<int>& held,
   ceres::Solve(options, &problem, &summary);
   if (batch.error) std::rethrow_exception(batch.error);
   result.ended = words_of(summary, watch.spent, o.iterations);
+  result.at_rest = !watch.spent && summary.termination_type == ceres::CONVERGENCE;
   if (summary.iterations.empty() || !summary.IsSolutionUsable()) return false;
   u = x;
   return true;

@@ -22,8 +22,9 @@ struct CostStep {
 };
 
 struct FitResult {
-  bool ok = false;    ///< there is a point with residuals
-  std::string ended;  ///< in words
+  bool ok = false;       ///< there is a point with residuals
+  std::string ended;     ///< in words
+  bool at_rest = false;  ///< ended because the cost changes no more
   std::vector<double> u;
   double start_cost = 0, cost = 0;  ///< sum of losses, halved; of squares, halved, if not robust
   std::vector<CostStep> steps;

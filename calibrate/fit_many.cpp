@@ -60,15 +60,22 @@ FitCourse fit_many(FitModel& model, const CalibrationSettings& settings) {
       model.set_noise(*settings.noise);
     else
       model.measure_noise(u);
-    // Changes of the cost that the noise makes by itself say nothing.
-    course.options.tolerance = settings.tolerance.value_or(std::clamp(100 * model.noise(), 1e-14, 1e-3));
+    // Changes of the cost that the noise makes by itself say nothing, nor those that move the end by a third of a
+    // standard error.
+    const double freedom =
+        std::max(1.0, static_cast<double>(model.problem().targets.size()) - static_cast<double>(u.size()));
+    course.options.tolerance = settings.tolerance.value_or(std::clamp(100 * model.noise(), 1e-14, 0.05 / freedom));
   };
   course.options.iterations = settings.iterations;
   course.options.budget = static_cast<std::size_t>(settings.budget);
   course.options.loss_scale = settings.loss_scale;
   settle(starts.front());
+  // Of several, a few iterations show which leads to the lowest cost; that one goes on.
+  constexpr int heat = 8;
+  FitOptions first = course.options;
+  if (starts.size() > 1) first.iterations = std::min(first.iterations, heat);
   for (std::size_t k = 0; k < starts.size(); ++k) {
-    course.fits.push_back(fit(model, starts[k], Differences::one_sided, false, course.options,
+    course.fits.push_back(fit(model, starts[k], Differences::one_sided, false, first,
                               starts.size() == 1 ? "fit" : fmt::format("fit {} of {}", k + 1, starts.size())));
     const FitResult &now = course.fits.back(), &best = course.fits[course.best];
     if (now.ok && (!best.ok || now.cost < best.cost)) course.best = k;

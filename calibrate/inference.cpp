@@ -42,7 +42,7 @@ Eigen::VectorXd newton_step(const Curvature& c, const std::vector<Eigen::Index>&
 
 }  // namespace
 
-Inference infer(const FitModel& model, const FitResult& end, double confidence, double loss_scale) {
+Inference infer(const FitModel& model, const FitResult& end, double confidence, double loss_scale, bool model_error) {
   const auto& targets = model.problem().targets;
   const auto& coordinates = model.coordinates();
   const auto n = static_cast<Eigen::Index>(coordinates.size());
@@ -73,7 +73,14 @@ Inference infer(const FitModel& model, const FitResult& end, double confidence, 
   }
   if (seen.empty()) return out;
 
-  const double s = std::sqrt(out.residual_variance);
+  const double known = std::sqrt(model_error ? std::max(out.residual_variance, 1.0) : out.residual_variance);
+  if (!open.empty()) {
+    const Eigen::VectorXd step = newton_step(c, open, c.g);
+    out.remaining_cost = -0.5 * c.g(open).dot(step);
+    out.remaining = known > 0 ? std::sqrt(std::max(2 * out.remaining_cost, 0.0)) / known : 0;
+  }
+  out.scale = known * std::sqrt(1 + out.remaining * out.remaining);
+  const double s = out.scale;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normalised(c, seen));
   const Eigen::VectorXd scale = c.h.diagonal()(seen).cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(1e-14);
@@ -91,11 +98,6 @@ Inference infer(const FitModel& model, const FitResult& end, double confidence, 
     }
     out.share(seen[a]) = eigen.eigenvectors()(i, 0);
     out.weakest(seen[a]) = s / std::sqrt(values(0)) * eigen.eigenvectors()(i, 0) * scale(i);
-  }
-  if (!open.empty()) {
-    const Eigen::VectorXd step = newton_step(c, open, c.g);
-    out.remaining_cost = -0.5 * c.g(open).dot(step);
-    out.remaining = s > 0 ? std::sqrt(std::max(2 * out.remaining_cost, 0.0)) / s : 0;
   }
   return out;
 }
@@ -170,7 +172,7 @@ std::vector<Profile> profiles(FitModel& model, const FitResult& end, const Infer
     // Signed root of the likelihood ratio: a straight line where the model is linear.
     const auto root = [&](const std::pair<double, double>& at) {
       const double rise = std::max(at.second - end.cost, 0.0);
-      return (at.first < end.u[i] ? -1 : 1) * std::sqrt(2 * rise / inference.residual_variance);
+      return (at.first < end.u[i] ? -1 : 1) * std::sqrt(2 * rise) / inference.scale;
     };
     const auto crossing = [&](double level) {
       for (std::size_t k = 0; k + 1 < line.size(); ++k) {

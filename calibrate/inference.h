@@ -12,7 +12,11 @@ namespace beltlife {
 struct Inference {
   double freedom = 0;            ///< residuals less parameters
   double residual_variance = 0;  ///< weighted squares over `freedom`: 1 where the stated deviations are right
-  double quantile = 0;           ///< of Student's t at the confidence, two-sided
+  /// Factor of the standard errors that the curvature gives: the root of the residual variance (not below 1 where a
+  /// model error is stated: one that all residuals share does not show in them), times how far from its minimum a
+  /// rough cost left the fit.
+  double scale = 0;
+  double quantile = 0;                                       ///< of Student's t at the confidence, two-sided
   std::vector<double> standard_error, standard_error_alone;  ///< scaled; alone: were all others known
   Eigen::MatrixXd correlation;
   std::vector<double> eigenvalues;  ///< of the normalised curvature (unit diagonal), from low to high
@@ -26,7 +30,8 @@ struct Inference {
 };
 
 /// Of the end of a fit. Curvature is J^T W J with the losses' slopes as weights.
-Inference infer(const FitModel& model, const FitResult& end, double confidence, double loss_scale);
+Inference infer(const FitModel& model, const FitResult& end, double confidence, double loss_scale,
+                bool model_error = false);
 
 /// The cost over one parameter with all others fitted again.
 struct Profile {

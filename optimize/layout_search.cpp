@@ -58,6 +58,7 @@ void LayoutSearch::restate_scene(ReadLog& log) {
         log.add(at, log.line(at.place), spec_.problem.parameter[i].path + " is solved for while the pretension is held",
                 "belt.pretension_n, or layout.hold_pretension = false");
       }
+    if (!log.problems.empty()) return;
     if (file.scene.ring) {
       log.add(hold, log.line(hold.place), "the scene is a ring, which has no layout", "a scene with pulleys");
       return;

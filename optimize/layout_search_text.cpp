@@ -51,10 +51,10 @@ std::string objective_words(const json& answer) {
   if (best["low"].is_number())
     words += fmt::format("; mean over replicates {}{}, interval of 95 %", with_interval(best), in_unit(name));
   const json& start = answer["start"];
-  if (start["objective"].is_number())
-    words += fmt::format(".\nAt the start {}", number(start["objective"]));
-  else
-    words += fmt::format(".\nThe start {}: {}", start["state"].get<std::string>(), start["reason"].get<std::string>());
+  if (!start["objective"].is_number())
+    return words + fmt::format(".\nThe start is no design to compare with ({}): {}.\n",
+                               start["state"].get<std::string>(), start["reason"].get<std::string>());
+  words += fmt::format(".\nAt the start {}", number(start["objective"]));
   if (start.contains("violated")) {
     words += ", which breaks limits: ";
     for (std::size_t i = 0; i < start["violated"].size(); ++i)
@@ -78,7 +78,7 @@ std::string governing_words(const json& governing) {
   for (const char* which : {"start", "best"}) {
     if (!governing.contains(which) || !governing[which].is_object()) continue;
     const json& g = governing[which];
-    words += fmt::format("{}: range {} takes {:.0f} % of the damage, pulley {} {:.0f} %.\n", which,
+    words += fmt::format("{}: of the damage in the ranges run, range {} does {:.0f} %, pulley {} {:.0f} %.\n", which,
                          g["range"].get<std::string>(), 100 * g["range_share"].get<double>(),
                          g["pulley"].get<std::string>(), 100 * g["pulley_share"].get<double>());
   }

@@ -11,8 +11,8 @@
 namespace beltlife {
 
 /// `Driver` has a Spec with visit() and a member `problem`, and
-///   static void prepare(Spec&, const CommandOptions&, ReadLog&)   flags applied; adds what is wrong with the file
-///   alone static std::vector<std::string> quantities(const Model&)      recorded where the file names none
+///   static void prepare(Spec&, const CommandOptions&, ReadLog&)   flags applied; adds what is wrong with it alone
+///   static std::vector<std::string> quantities(const Model&)      recorded where the file names none
 ///   Driver(LoadedProblem, Spec, ReadLog&)                         adds what is wrong with file and scene together
 ///   StudyHead head(); PointModel model(threads)                   columns of its points, and who answers them
 ///   const LoadedProblem& problem()                                optional: the problem as the driver has changed it

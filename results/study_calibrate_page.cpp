@@ -280,8 +280,8 @@ Section profiles_section(const json& answer, const std::vector<FittedParameter>&
   const double confidence = number_in(answer, "confidence"), freedom = number_in(answer, "degrees_of_freedom");
   double level = NAN;
   if (confidence > 0 && confidence < 1 && freedom > 0) {
-    const double t = student_t_quantile(confidence, freedom);
-    level = number_in(answer, "cost") + 0.5 * t * t * number_in(answer, "residual_variance");
+    const double t = student_t_quantile(confidence, freedom), scale = number_in(answer, "error_scale");
+    level = number_in(answer, "cost") + 0.5 * t * t * scale * scale;
   }
   std::string charts;
   for (std::size_t i = 0; i < parameters.size(); ++i)

@@ -112,6 +112,11 @@ TEST(Includes, OfHdf5StandWhereFilesAreWrittenAndRead) {
   EXPECT_EQ(includers("hdf5.h"), (std::vector<std::string>{"results/hdf5_image.cpp", "results/hdf5_source.cpp"}));
 }
 
+TEST(Includes, OfCeresAndNloptStandInOneFileEach) {
+  EXPECT_EQ(includers("ceres/ceres.h"), std::vector<std::string>{"calibrate/fit.cpp"});
+  EXPECT_EQ(includers("nlopt.h"), std::vector<std::string>{"optimize/nlopt_search.cpp"});
+}
+
 // Heavy headers, and threads and a random generator that belong to the whole program.
 TEST(Includes, OfOpenTurnsStandInFilesNamedAfterIt) {
   for (const Include& i : includes())

@@ -94,6 +94,7 @@ StudyRecord calibration() {
       {"confidence", 0.95},
       {"degrees_of_freedom", 10},
       {"residual_variance", 0.8125},
+      {"error_scale", 0.9013878188659973},
       {"probability_of_residuals", 0.25},
       {"noise", 1e-3},
       {"correlation", correlation},
