@@ -1,10 +1,7 @@
 // Prints what the search algorithms achieve on problems of known optimum: share solved and what is left of the way.
 //
-// g++ -std=c++20 -O2 -I. -I/usr/include/eigen3 tests/bench/search_comparison.cpp optimize/search*.cpp
-//   optimize/{nlopt_search,local_values,recipe,kriging,kriging_search,surrogates}.cpp -lnlopt -lfmt -o
-//   search_comparison
-// ./search_comparison small [ALGORITHM...]   2 to 6 variables, 600 points, 15 seeds
-// ./search_comparison large [ALGORITHM...]   12 variables, 300 and 600 points, 5 seeds
+// build/release/tests/search_comparison small [ALGORITHM...]   2 to 6 variables, 600 points, 15 seeds
+// build/release/tests/search_comparison large [ALGORITHM...]   12 variables, 300 and 600 points, 5 seeds
 // SEEDS=n in the environment: other numbers of seeds; FIRST=n: the first of them (1), to see what tuning on some hid.
 #include <fmt/format.h>
 

@@ -158,6 +158,20 @@ TEST_F(Twin, OfAnotherContentIsAnotherCalibration) {
   EXPECT_NE(a.err.find("crc32"), std::string::npos) << a.err;
 }
 
+TEST_F(Twin, WithoutParametersTheSetThatTheThesisTunedIsFitted) {
+  ASSERT_EQ(run({"twin", "twin.toml", "--quiet"}).code, 0);
+  const std::string all = fit();
+  write("tuned.toml", "scene = \"drive.toml\"\n" + all.substr(all.find("[[spectrum]]")) +
+                          "mean = true\n[calibration]\nstarts = 1\niterations = 1\nprofiles = false\n");
+  const Answer a = run({"calibrate", "tuned.toml", "--quiet", "--json"});
+  ASSERT_TRUE(a.code == 0 || a.code == 3) << a.err;
+  std::vector<std::string> names;
+  for (const auto& [name, value] : a.json()["parameters"].items()) names.push_back(name);
+  // A drive without a tensioner has none of its two.
+  EXPECT_EQ(names, (std::vector<std::string>{"belt.axial_damping_n_s", "belt.bending_damping_n_m2_s",
+                                             "belt.friction_front"}));
+}
+
 TEST_F(Twin, WhatCannotBeFittedIsRefusedInWords) {
   ASSERT_EQ(run({"twin", "twin.toml", "--quiet"}).code, 0);
   const struct {
