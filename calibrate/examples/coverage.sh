@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # How often the truth lies in its 95 % interval: twins of the same mesh and step with twenty seeds of noise, one range, 256
-# elements, each calibrated from the same start. Usage: coverage.sh PATH_TO_BELTLIFE FOLDER [SEEDS]; 10 minutes on two cores.
+# elements, each calibrated from the same start. Usage: coverage.sh PATH_TO_BELTLIFE FOLDER [SEEDS]; 20 minutes on two cores.
 # The table of results: results/reports/calibration_twin.
 set -euo pipefail
 beltlife=$(realpath "$1")
