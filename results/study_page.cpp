@@ -41,6 +41,8 @@ constexpr StudyKindPage kinds[] = {
      uncertainty_part, true, "They are missing from every percentile and share."},
     {"calibrate", "Calibration", "with which parameters the model answers as was measured", calibrate_part, false,
      "A step that fails is shortened, and a start that fails is passed over."},
+    {"optimize", "Layout search", "which layout is the best within its limits", optimize_part, false,
+     "A layout that fails counts as one that breaks its limits, and the search goes on elsewhere."},
 };
 
 /// A kind that has no row has the common sections, and its answer as it is.

@@ -29,6 +29,7 @@ StudyPart sobol_part(const StudyRecord& record);
 StudyPart surrogate_part(const StudyRecord& record);
 StudyPart uncertainty_part(const StudyRecord& record);
 StudyPart calibrate_part(const StudyRecord& record);
+StudyPart optimize_part(const StudyRecord& record);
 
 /// Points that are not ok: counted by reason, and the first of them; `note` (HTML) is what the kind says of them.
 Section failures_section(const StudyRecord& record, const std::string& note);
