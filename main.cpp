@@ -216,7 +216,8 @@ int run(int argc, char** argv) {
   calibrate->footer(
       "Examples:\n"
       "  beltlife calibrate calibrate/examples/small.toml --set profile.hold_s=1 --set profile.evaluate_s=0.48\n"
-      "  beltlife calibrate calibrate/examples/fine.toml --set profile.hold_s=1.5 --out fine.h5 && beltlife report fine.h5\n"
+      "  beltlife calibrate calibrate/examples/fine.toml --set profile.hold_s=1.5 --out fine.h5 && beltlife report "
+      "fine.h5\n"
       "A run that is stopped goes on with the same command. Fields of the file: --fields, or calibrate/README.md.");
 
   CLI::App* optimize = app.add_subcommand(

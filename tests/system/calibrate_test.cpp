@@ -165,11 +165,12 @@ TEST_F(Twin, WithoutParametersTheSetThatTheThesisTunedIsFitted) {
                           "mean = true\n[calibration]\nstarts = 1\niterations = 1\nprofiles = false\n");
   const Answer a = run({"calibrate", "tuned.toml", "--quiet", "--json"});
   ASSERT_TRUE(a.code == 0 || a.code == 3) << a.err;
+  const auto j = a.json();
   std::vector<std::string> names;
-  for (const auto& [name, value] : a.json()["parameters"].items()) names.push_back(name);
+  for (const auto& [name, value] : j["parameters"].items()) names.push_back(name);
   // A drive without a tensioner has none of its two.
-  EXPECT_EQ(names, (std::vector<std::string>{"belt.axial_damping_n_s", "belt.bending_damping_n_m2_s",
-                                             "belt.friction_front"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"belt.axial_damping_n_s", "belt.bending_damping_n_m2_s", "belt.friction_front"}));
 }
 
 TEST_F(Twin, WhatCannotBeFittedIsRefusedInWords) {
