@@ -113,24 +113,31 @@ bool any_ok(const SearchLedger& ledger) {
   return std::any_of(ledger.history().begin(), ledger.history().end(), [](const Trial& t) { return t.ok; });
 }
 
-// One region's life: from its best trial among those since `from`, until it is small or the budget is spent.
-void explore(SearchLedger& ledger, const SearchOptions& options, std::size_t from, double half_width,
-             SearchRandom& random) {
+/// What a region may do.
+struct Lease {
+  std::size_t from = 0;   ///< its trials are those from here on
+  double half_width = 0;  ///< at first
+  double end = 0;         ///< half width at which it is given up
+  int keep = 0;           ///< trials that it leaves to others
+};
+
+// One region's life, from its best trial on.
+void explore(SearchLedger& ledger, const SearchOptions& options, const Lease& lease, SearchRandom& random) {
   constexpr double most_half_width = 0.8;
   constexpr int enough_successes = 2;
   const std::size_t n = ledger.problem().variables, batch = static_cast<std::size_t>(options.batch);
   // A batch too small to look along every axis has to try more often.
   const int patience = std::max(2, static_cast<int>((n + batch - 1) / batch));
-  Region region{{}, half_width};
+  Region region{{}, lease.half_width};
   std::vector<KrigingShape> shapes;
   int successes = 0, failures = 0;
-  while (ledger.left() > 0 && region.half_width > 5 * options.xtol) {
-    const Trial& before = ledger.history()[ledger.ranked(from).front()];
+  while (ledger.left() > lease.keep && region.half_width > lease.end) {
+    const Trial& before = ledger.history()[ledger.ranked(lease.from).front()];
     region.centre = before.x;
     const double old_rank = rank_value(before);
     Surrogates surrogates(ledger, region.centre, shapes);
     ledger.ask(next_batch(ledger, surrogates, region, random));
-    const double rank = rank_value(ledger.history()[ledger.ranked(from).front()]);
+    const double rank = rank_value(ledger.history()[ledger.ranked(lease.from).front()]);
     const bool success = rank < old_rank - 1e-4 * std::min(1.0, std::abs(old_rank));
     successes = success ? successes + 1 : 0;
     failures = success ? 0 : failures + 1;
@@ -148,20 +155,30 @@ void explore(SearchLedger& ledger, const SearchOptions& options, std::size_t fro
 
 std::string kriging_search(SearchLedger& ledger, const SearchOptions& options) {
   constexpr double first_half_width = 0.4;
+  constexpr double enough = 0.02;  // half width at which a region has shown what it holds
+  constexpr double polish_half_width = 0.05;
+  const double least = 5 * options.xtol;
+  const int polish = options.budget / 4;
   const std::size_t n = ledger.problem().variables, batch = static_cast<std::size_t>(options.batch);
   HaltonSequence sequence(n, options.seed);
   SearchRandom random(options.seed ^ 0x6b72696765);  // not the sequence's own
   const std::size_t whole_batches = (2 * (n + 1) + batch - 1) / batch * batch;
   const std::size_t design = std::min(whole_batches, static_cast<std::size_t>(options.budget / 3 + 1));
   std::size_t from = 0;  // trials before it belong to earlier regions
-  while (ledger.left() > 0) {
+  const auto begin = [&] {
     const int before = ledger.left();
     ledger.ask(screened(ledger, sequence, design));
-    if (ledger.left() == before) return "no new design of feasible geometry";
+    return ledger.left() < before;
+  };
+  while (ledger.left() > polish) {
+    if (!begin()) return "no new design of feasible geometry";
     if (!any_ok(ledger)) continue;
-    explore(ledger, options, from, first_half_width, random);
+    explore(ledger, options, {from, first_half_width, std::max(enough, least), polish}, random);
     from = ledger.history().size();
   }
+  if (any_ok(ledger)) explore(ledger, options, {0, polish_half_width, least, 0}, random);
+  while (ledger.left() > 0)
+    if (!begin()) return "no new design of feasible geometry";
   return "budget spent";
 }
 
