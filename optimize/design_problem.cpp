@@ -71,6 +71,7 @@ DesignProblem::DesignProblem(const LoadedProblem& problem, const OptimizationSpe
   free_limits_.travel_deg.reset();
   free_limits_.min_slip_safety.reset();
   free_limits_.max_hub_load_n.reset();
+  free_limits_.modes.reset();
   for (const ParameterSpec& p : parameters_) start_x_.push_back(in_unit(p, *p.start));
   if (!problem_.scene) return;
   const SceneSpec& base = problem_.scene->file.scene;
@@ -130,7 +131,7 @@ std::vector<Clearance> DesignProblem::limits(const Candidate& c) const {
 }
 
 std::vector<Clearance> DesignProblem::running_limits(const Candidate& c) const {
-  if (!problem_.scene || !spec_.layout || !spec_.layout->limits.wants_quasi_static()) return {};
+  if (!problem_.scene || !spec_.layout || !spec_.layout->limits.of_running()) return {};
   const SceneSpec& scene = placed(c);
   const std::size_t free = layout_limits(scene, free_limits_).size();
   std::vector<Clearance> all = layout_limits(scene, spec_.layout->limits, RunningDetail::with_bending_loss);
@@ -139,9 +140,10 @@ std::vector<Clearance> DesignProblem::running_limits(const Candidate& c) const {
 }
 
 double DesignProblem::scale_of(const Clearance& limit) const {
-  constexpr double much_mm = 20, much_deg = 20;
+  constexpr double much_mm = 20, much_deg = 20, much_percent = 20;
   if (limit.unit == "mm") return much_mm;
   if (limit.unit == "deg") return much_deg;
+  if (limit.unit == "%") return much_percent;
   if (limit.unit == "N") return *spec_.layout->limits.max_hub_load_n;
   return 1;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "optimize/keep_out.h"
+#include "optimize/order_distance.h"
 #include "optimize/placed_layout.h"
 #include "sim/statics/take_up.h"
 
@@ -43,6 +44,7 @@ class Limits {
     keep_outs();
     if (layout_.arm && spec_.take_up) take_up();
     if (spec_.wants_quasi_static()) running();
+    if (spec_.modes) modes();
     return std::move(out_);
   }
 
@@ -235,6 +237,22 @@ class Limits {
         return ranges[r].solved ? fmt::format("a hub carries {:.0f} N in range {}, more than {:g} N", load, name,
                                               *spec_.max_hub_load_n)
                                 : cannot(name);
+      });
+    }
+  }
+
+  void modes() {
+    const bool can_run = shape_.can_be_built() && layout_.missing == 0;
+    const auto distances = order_distances(scene_, spec_.modes->orders, can_run);
+    for (std::size_t r = 0; r < distances.size(); ++r) {
+      const OrderDistance& d = distances[r];
+      const std::string& name = scene_.range[r].name;
+      add("modes in " + name, d.percent - spec_.modes->min_distance_percent, "%", "belt.axial_stiffness_n", [&] {
+        return d.frequency_hz > 0 ? fmt::format(
+                                        "a natural frequency of {:.1f} Hz is {:.1f} % away from order {:g} in range "
+                                        "{}, less than {:g} %",
+                                        d.frequency_hz, d.percent, d.order, name, spec_.modes->min_distance_percent)
+                                  : "the drive has no steady running in range " + name;
       });
     }
   }

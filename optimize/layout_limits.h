@@ -28,6 +28,7 @@ namespace beltlife {
 ///   travel lengthening, shortening  deg  from then on quasi-static
 ///   slip safety in R                -    smallest of all pulleys, at most 100; for every range
 ///   hub load in R                   N
+///   modes in R                      %    distance of the nearest natural frequency from an order
 /// The layout is that of the arm at rest. A layout that cannot be built still has all numbers, continued so that they
 /// say by how much: circles that overlap so far that no tangent exists are joined by the limit of one. Quasi-static
 /// limits of a layout that cannot be built, or that the quasi-static solution refuses, are those of no travel, of a

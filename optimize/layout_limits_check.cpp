@@ -63,11 +63,12 @@ void check_layout_limits(const LayoutLimitsSpec& spec, const SceneSpec& scene, R
   if (!scene.tensioner && (spec.take_up || spec.travel_deg))
     complain(log, path.child(spec.take_up ? "take_up" : "travel_deg"), "needs a tensioner, and there is none",
              "a scene with a [tensioner]");
-  if (scene.range.empty() && spec.wants_quasi_static())
+  if (scene.range.empty() && spec.of_running())
     complain(log,
              path.child(spec.travel_deg        ? "travel_deg"
                         : spec.min_slip_safety ? "min_slip_safety"
-                                               : "max_hub_load_n"),
+                        : spec.max_hub_load_n  ? "max_hub_load_n"
+                                               : "modes"),
              "needs operating ranges, and there are none", "a scene with [[range]]");
 }
 

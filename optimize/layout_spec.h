@@ -87,6 +87,20 @@ struct TakeUpLimitSpec {
   }
 };
 
+struct ModesLimitSpec {
+  std::vector<double> orders;
+  double min_distance_percent = 10;
+
+  template <class V>
+  void visit(V& v) {
+    v("orders", orders, required(above(0, 100)),
+      "orders of crank rotation that excite the drive, such as 3 and 6 of six cylinders");
+    v("min_distance_percent", min_distance_percent, above(0, 100),
+      "of every rotational natural frequency, the arm free or stuck, from every order's frequency, as a share of the "
+      "latter");
+  }
+};
+
 struct LayoutLimitsSpec {
   double min_pulley_clearance_mm = 10;
   double min_belt_clearance_mm = 5;
@@ -100,11 +114,14 @@ struct LayoutLimitsSpec {
   std::optional<double> max_hub_load_n;
   std::optional<LayoutBoxSpec> box;
   std::optional<TakeUpLimitSpec> take_up;
+  std::optional<ModesLimitSpec> modes;
   std::vector<WrapLimitSpec> wrap;
   std::vector<KeepOutSpec> keep_out;
 
   /// Whether some limit wants the quasi-static solution of every range.
   bool wants_quasi_static() const { return travel_deg || min_slip_safety || max_hub_load_n; }
+  /// Whether some limit hangs on how the drive runs, which takes longer to know than its geometry.
+  bool of_running() const { return wants_quasi_static() || modes; }
 
   template <class V>
   void visit(V& v) {
@@ -128,6 +145,7 @@ struct LayoutLimitsSpec {
       "largest force of the belt on a pulley in all ranges (quasi-static, friction either way); absent: no limit");
     v("box", box, any_text, "pulleys stay inside");
     v("take_up", take_up, any_text, "other belt lengths that the tensioner must hold");
+    v("modes", modes, any_text, "natural frequencies of all ranges that stay away from orders of the crank");
     v("wrap", wrap, any_text, "smallest wraps of single pulleys");
     v("keep_out", keep_out, any_text, "where neither pulleys nor belt may be");
   }

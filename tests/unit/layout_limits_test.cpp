@@ -11,6 +11,7 @@
 #include <random>
 
 #include "optimize/layout_base.h"
+#include "sim/modes/modes.h"
 #include "sim/scene/scene_io.h"
 #include "sim/statics/quasi_static.h"
 
@@ -218,6 +219,40 @@ TEST(LayoutLimits, OfRunningAreTheQuasiStaticSolutions) {
   EXPECT_EQ(broken.at("slip safety in slow"), -1.5);
   EXPECT_EQ(broken.at("hub load in slow"), -1600);
   EXPECT_EQ(broken.at("travel shortening"), -3);
+}
+
+TEST(LayoutLimits, OfModesAreTheNearestRotationalFrequencyToAnOrder) {
+  const SceneSpec scene = shipped("two_pulley");
+  LayoutLimitsSpec spec = no_minima();
+  spec.modes = ModesLimitSpec{{2, 3}, 25};
+  const auto v = values(scene, spec);
+  const Model model = compile(scene);
+  for (const RangeSpec& range : scene.range) {
+    double least = 100;
+    for (const ArmModes& arm : solve_modes(model, range).arms)
+      for (const Mode& mode : arm.modes)
+        for (const double hz : {2 * range.crank_rpm / 60, 3 * range.crank_rpm / 60})
+          least = std::min(least, 100 * std::abs(mode.frequency_hz / hz - 1));
+    ASSERT_LT(least, 100) << "the drive has a frequency near an order";
+    EXPECT_NEAR(v.at("modes in " + range.name), least - 25, exact);
+  }
+  SceneSpec overlapping = scene;
+  overlapping.pulley[1].x_mm = 20;
+  EXPECT_EQ(values(overlapping, spec).at("modes in " + scene.range[0].name), -25);
+}
+
+TEST(LayoutLimits, OfADriveTunedOntoAnOrderSayWhichFrequencyMeetsIt) {
+  SceneSpec scene = shipped("two_pulley");
+  const double hz = solve_modes(compile(scene), scene.range[0]).arms[0].modes.back().frequency_hz;
+  LayoutLimitsSpec spec = no_minima();
+  spec.modes = ModesLimitSpec{{hz * 60 / scene.range[0].crank_rpm}, 5};
+  for (const Clearance& c : layout_limits(scene, spec))
+    if (c.name == "modes in " + scene.range[0].name) {
+      EXPECT_NEAR(c.value, -5, 1e-6);  // percent: exactly on it, but for rounding
+      EXPECT_NE(c.words.find(" Hz is 0.0 % away from order "), c.words.npos) << c.words;
+      return;
+    }
+  FAIL() << "no such limit";
 }
 
 // The baseline with idlers, tensioner pulley and pivot moved inside boxes of this size.
