@@ -6,7 +6,7 @@ cd "$(dirname "$0")"
 . .ci/install.sh
 install_missing $build_packages
 
-cmake --preset release -DBELTLIFE_TESTS=OFF -B build/demo >build-demo.log 2>&1 || { cat build-demo.log; exit 1; }
+cmake --preset release -DBELTLIFE_TESTS=OFF -DBELTLIFE_MPI=OFF -B build/demo >build-demo.log 2>&1 || { cat build-demo.log; exit 1; }
 cmake --build build/demo >>build-demo.log 2>&1 || { cat build-demo.log; exit 1; }
 mv build-demo.log build/demo/build.log
 beltlife=build/demo/beltlife

@@ -6,11 +6,13 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <memory>
 
 #include "calibrate/commands.h"
 #include "calibrate/twin.h"
 #include "optimize/commands.h"
 #include "results/commands.h"
+#include "results/ranks.h"
 #include "sim/scene/scene_io.h"
 #include "studies/commands.h"
 
@@ -65,6 +67,13 @@ void threads_flag(CLI::App& app, CommandOptions& o, const std::string& about) {
                            "a whole number from 0 to 1024"));
 }
 
+void frames_flag(CLI::App& app, CommandOptions& o) {
+  app.add_option("--frames", o.frames, "frames of the moving belt that --out keeps of every range; 0: none")
+      ->type_name("N")
+      ->check(number_where([](double n) { return n >= 0 && n <= 1000 && n == std::floor(n); },
+                           "a whole number from 0 to 1000"));
+}
+
 void run_flags(CLI::App& app, CommandOptions& o) {
   app.add_option("--range", o.ranges, "only this operating range (repeatable)")
       ->type_name("NAME")
@@ -75,6 +84,7 @@ void run_flags(CLI::App& app, CommandOptions& o) {
   app.add_option("--out", o.out, "write an HDF5 result file; of several scenes FILE_SCENE.h5 each")
       ->type_name("FILE.h5")
       ->check(not_empty());
+  frames_flag(app, o);
 }
 
 void driver_flags(CLI::App& app, CommandOptions& o, bool seeded) {
@@ -105,7 +115,7 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, beltlife::Ranks* ranks) {
   CommandOptions o;
   Shorthand shorthand;
   o.version = BELTLIFE_VERSION;
@@ -157,10 +167,20 @@ int run(int argc, char** argv) {
   simulate->add_option("scene", scene, "scene file (TOML)")->required();
   simulate->add_flag("--each-range", o.each_range, "every range alone, in parallel, instead of the profile");
   simulate->add_flag("--profile", o.profile, "print the time spent in each kernel");
+  simulate
+      ->add_option(
+          "--sweep", o.sweep,
+          "run through crank speeds, e.g. 600:2200:60 (r/min, r/min, s), and print the output's orders over them")
+      ->type_name("FROM:TO:SECONDS")
+      ->check(not_empty())
+      ->excludes(simulate->get_option("--range"))
+      ->excludes(simulate->get_option("--each-range"));
   simulate->footer(
       "Examples:\n"
       "  beltlife simulate sim/scenes/baseline.toml --range B100 --set profile.hold_s=1.5\n"
-      "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json");
+      "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json\n"
+      "  beltlife simulate sim/scenes/baseline.toml --sweep 600:2200:60 --out sweep.h5\n"
+      "  beltlife simulate sim/scenes/sudden_stop.toml");
   life->add_option("scene", o.scenes, "one or more scene files (TOML)")->required()->expected(1, -1);
   life->add_option("--details", o.details,
                    "also write tensions, slip, hub loads, orders and energy of every range to a text file")
@@ -175,18 +195,40 @@ int run(int argc, char** argv) {
       "  beltlife life sim/scenes/two_pulley.toml\n"
       "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
 
-  CLI::App* report = app.add_subcommand("report", "write one self-contained HTML page about a result file or a study");
+  CLI::App* report = app.add_subcommand(
+      "report", "write one self-contained HTML page about a result file or a study, or about several result files");
   report
-      ->add_option("file", scene,
-                   "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz)")
-      ->required();
-  report->add_option("--out", o.out, "the page; by default beside the file, ending in .html")
+      ->add_option("files", o.scenes,
+                   "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz); several "
+                   "result files of simulate and life are compared")
+      ->required()
+      ->expected(1, -1);
+  report->add_option("--out", o.out, "the page; by default beside the (first) file, ending in .html")
       ->type_name("FILE.html")
       ->check(not_empty());
   report->add_flag("--quiet", o.quiet, "do not say what was written");
   report->footer(
-      "Example:\n"
-      "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two.h5 && beltlife report two.h5");
+      "Examples:\n"
+      "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two.h5 && beltlife report two.h5\n"
+      "  beltlife report baseline.h5 alternative_1.h5    (writes baseline_vs_alternative_1.html)");
+
+  CLI::App* export_ = app.add_subcommand("export", "list the datasets of a result or study file, or write them as CSV");
+  export_->add_option("file", scene, "HDF5 file (--out of simulate, life, study, ...)")->required();
+  export_
+      ->add_option("datasets", o.datasets,
+                   "datasets, or groups whose datasets are equally long, to stand side by side; without any they are "
+                   "listed")
+      ->type_name("DATASET");
+  export_->add_option("--out", o.out, "write there instead of to standard output")
+      ->type_name("FILE.csv")
+      ->check(not_empty());
+  export_->add_flag("--json", o.json, "the list as one JSON object");
+  export_->add_flag("--quiet", o.quiet, "do not say what was written");
+  export_->footer(
+      "Examples:\n"
+      "  beltlife export two.h5\n"
+      "  beltlife export two.h5 runs/0/trace --out trace.csv\n"
+      "  beltlife export two.h5 ranges/fast/spectra/frequency_hz ranges/fast/spectra/driven.speed_rpm");
 
   CLI::App* study = app.add_subcommand("study", "what moves a quantity, and how far it can be trusted");
   for (const beltlife::StudyKind& kind : beltlife::study_kinds()) {
@@ -256,9 +298,29 @@ int run(int argc, char** argv) {
   replay->add_option("--out", o.out, "write an HDF5 result file, for beltlife report")
       ->type_name("FILE.h5")
       ->check(not_empty());
+  frames_flag(*replay, o);
   replay->add_flag("--json", o.json, "print one JSON object on standard output");
   replay->add_flag("--quiet", o.quiet, "no progress on standard error");
   replay->footer("Example:\n  beltlife replay noise.jsonl --point 3 --out point3.h5 && beltlife report point3.h5");
+
+  CLI::App* serve = app.add_subcommand(
+      "serve", "answer other programs over UM-Bridge (HTTP and JSON): parameters in, quantities out");
+  common_flags(*serve, o, shorthand);
+  threads_flag(*serve, o, "threads over points, 0: all");
+  serve->add_option("study", scene, "study file (TOML)")->required();
+  serve->add_option("--port", o.port, "port to listen on, instead of the file's; 0: the system chooses one")
+      ->type_name("N")
+      ->check(number_where([](double n) { return n >= 0 && n <= 65535 && n == std::floor(n); },
+                           "a whole number from 0 to 65535"));
+  serve->add_option("--address", o.address, "address to listen on, instead of the file's (127.0.0.1)")
+      ->type_name("A")
+      ->check(not_empty());
+  fields_flag(*serve, beltlife::serve_fields);
+  serve->footer(
+      "Examples:\n"
+      "  beltlife serve results/examples/serve_small.toml\n"
+      "  curl -d '{\"name\": \"beltlife\", \"input\": [[0.6, 600]]}' http://127.0.0.1:4242/Evaluate\n"
+      "Ctrl-C stops it. Fields of the file: --fields; protocol, errors and limits: results/README.md.");
 
   bool reference = false;
   app.add_flag("--fields", reference, "print the reference of all scene fields as Markdown and exit");
@@ -267,14 +329,23 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (ranks && !ranks->leads()) return 0;
     return app.exit(error) == 0 ? 0 : 1;
   }
   if (reference) {
     std::cout << beltlife::field_reference();
     return 0;
   }
-  if (*check || *modes || *simulate || *report || *study || *calibrate || *optimize || *twin || *replay)
+  if (*check || *modes || *simulate || *export_ || *study || *calibrate || *optimize || *twin || *replay || *serve)
     o.scenes = {scene};
+  if (ranks) {
+    if (!*study && !*calibrate && !*optimize)
+      throw beltlife::BadInput(
+          {beltlife::Problem{"mpirun", 0, "", "this command runs in one process", "study, calibrate, optimize"}});
+    o.ranks = ranks;
+    o.threads = ranks->threads(o.threads);
+    o.quiet = o.quiet || !ranks->leads();
+  }
   if (!shorthand.scheme.empty()) o.settings.push_back("solver.scheme=" + shorthand.scheme);
   if (!shorthand.step.empty()) o.settings.push_back("solver.step_s=" + shorthand.step);
   if (!shorthand.elements.empty()) o.settings.push_back("belt.elements=" + shorthand.elements);
@@ -283,11 +354,13 @@ int run(int argc, char** argv) {
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
   if (*report) return beltlife::run_report(o);
+  if (*export_) return beltlife::run_export(o);
   if (*optimize) return beltlife::run_optimize(o);
   if (*twin) return beltlife::run_twin(o);
   if (*calibrate) return beltlife::run_calibrate(o);
   if (*study) return beltlife::run_study(o);
   if (*replay) return beltlife::run_replay(o);
+  if (*serve) return beltlife::run_serve(o);
   std::cerr << app.help();
   return 1;
 }
@@ -295,16 +368,23 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::unique_ptr<beltlife::Ranks> ranks;
+  const auto failed = [&](const std::string& words, int code) {
+    if (ranks && !ranks->leads())
+      ranks->decline(words);
+    else
+      std::fprintf(stderr, "%s\n", words.c_str());
+    return code;
+  };
   try {
-    const int code = run(argc, argv);
+    ranks = beltlife::Ranks::join();
+    const int code = run(argc, argv, ranks.get());
     if (std::fflush(stdout) == 0 && std::cout.flush()) return code;
-    std::fprintf(stderr, "beltlife: the answer cannot be written to standard output: %s\n", std::strerror(errno));
-    return 3;
+    return failed(std::string("beltlife: the answer cannot be written to standard output: ") + std::strerror(errno), 3);
   } catch (const beltlife::BadInput& bad) {
-    std::fprintf(stderr, "%s\n", bad.what());
-    return 2;
+    return failed(bad.what(), 2);
   } catch (const std::exception& bug) {
-    std::fprintf(stderr, "beltlife: a bug: %s\nplease report it with the command and the scene file\n", bug.what());
-    return 4;
+    return failed(
+        std::string("beltlife: a bug: ") + bug.what() + "\nplease report it with the command and the scene file", 4);
   }
 }

@@ -1,8 +1,8 @@
 # Installs the Debian packages that are missing, by apt; through sudo only where not root. Sourced by demo.sh and test.sh.
 # Usage: install_missing PACKAGE...
 
-build_packages="g++ cmake ninja-build libgomp1 libfmt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libhdf5-dev zlib1g-dev libopenturns-dev libceres-dev libnlopt-dev gnuplot-nox"
-test_packages="git libgtest-dev libbenchmark-dev clang clang-format clang-tidy libomp-dev hdf5-tools"
+build_packages="g++ cmake ninja-build libgomp1 libfmt-dev libeigen3-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev libhdf5-dev zlib1g-dev libopenturns-dev libceres-dev libnlopt-dev libcpp-httplib-dev pkg-config gnuplot-nox"
+test_packages="git libgtest-dev libbenchmark-dev clang clang-format clang-tidy libomp-dev hdf5-tools libopenmpi-dev openmpi-bin"
 
 install_missing() {
   local missing="" package

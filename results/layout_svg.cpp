@@ -18,16 +18,6 @@ std::string colour(double value, double low, double high) {
   return fmt::format("rgb({},{},{})", mix(20, 220), mix(90, 30), mix(210, 40));
 }
 
-struct Box {
-  double left = 1e9, right = -1e9, bottom = 1e9, top = -1e9;
-  void take(const Circle& c) {
-    left = std::min(left, c.x - c.radius);
-    right = std::max(right, c.x + c.radius);
-    bottom = std::min(bottom, c.y - c.radius);
-    top = std::max(top, c.y + c.radius);
-  }
-};
-
 /// A text's place in the drawing, px: its middle and half its size.
 struct Label {
   double x = 0, y = 0, half_width = 0, half_height = 7;
@@ -84,14 +74,47 @@ Label beside(const std::array<double, 4>& line, double half_width, const Obstacl
   return best;
 }
 
+/// Pulleys and belt of another drive; `x` and `y` take m to px.
+template <class X, class Y>
+std::string dashed(const Model& m, double arm_angle, double scale, X x, Y y) {
+  const auto circles = circles_of(m.scene, m.statics.orientation, arm_angle);
+  std::string s = "<g fill=\"none\" stroke=\"#777\" stroke-width=\"1.3\" stroke-dasharray=\"5 4\">\n";
+  for (const Circle& c : circles)
+    s += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", x(c.x), y(c.y), c.radius * scale);
+  Route route;
+  if (make_route(circles, route))
+    for (const Span& span : route.spans)
+      s += fmt::format("<path d=\"M {:.1f} {:.1f} L {:.1f} {:.1f}\"/>\n", x(span.from.x), y(span.from.y), x(span.to.x),
+                       y(span.to.y));
+  return s + "</g>\n";
+}
+
 }  // namespace
 
+void make_room(SharedDrawing& box, const Model& m, double arm_angle, const std::vector<double>& tension) {
+  for (const Circle& c : circles_of(m.scene, m.statics.orientation, arm_angle)) {
+    box.left = std::min(box.left, c.x - c.radius);
+    box.right = std::max(box.right, c.x + c.radius);
+    box.bottom = std::min(box.bottom, c.y - c.radius);
+    box.top = std::max(box.top, c.y + c.radius);
+  }
+  for (const double value : tension) {
+    box.slack_n = std::min(box.slack_n, value);
+    box.tight_n = std::max(box.tight_n, value);
+  }
+}
+
 std::string layout_svg(const Model& m, double arm_angle, const std::vector<double>& tension, const std::string& id) {
+  SharedDrawing own;
+  make_room(own, m, arm_angle, tension);
+  return layout_svg(m, arm_angle, tension, id, own);
+}
+
+std::string layout_svg(const Model& m, double arm_angle, const std::vector<double>& tension, const std::string& id,
+                       const SharedDrawing& box) {
   const auto circles = circles_of(m.scene, m.statics.orientation, arm_angle);
   Route route;
   if (!make_route(circles, route)) return "";
-  Box box;
-  for (const Circle& c : circles) box.take(c);
   const double margin = 0.09 * std::max(box.right - box.left, box.top - box.bottom);
   const double scale =
       620 / std::max(box.right - box.left + 2 * margin, box.top - box.bottom + 2 * margin);  // px per m
@@ -119,7 +142,8 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
         "opacity=\"0.6\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"#333\"/>\n",
         x(m.tensioner.pivot_x), y(m.tensioner.pivot_y), x(c.x), y(c.y), x(m.tensioner.pivot_x), y(m.tensioner.pivot_y));
   }
-  const auto [low, high] = std::minmax_element(tension.begin(), tension.end());
+  if (box.beneath) s += dashed(*box.beneath, box.beneath_arm, scale, x, y);
+  const double low = box.slack_n, high = box.tight_n;
   const std::size_t n = circles.size();
   const bool in_order = (m.scene.rotation == Rotation::counterclockwise) == (m.statics.orientation > 0);
   const double ahead = in_order ? 1 : -1;  // the scene may list its pulleys against the running sense
@@ -136,7 +160,7 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
     s += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"4\"><title>{}: "
         "{:.0f} N</title></line>\n",
-        x(span.from.x), y(span.from.y), x(span.to.x), y(span.to.y), colour(tension[i], *low, *high),
+        x(span.from.x), y(span.from.y), x(span.to.x), y(span.to.y), colour(tension[i], low, high),
         span_name(m.scene, i), tension[i]);
     const std::size_t j = (i + 1) % n;
     const Circle& c = circles[j];
@@ -145,13 +169,13 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
         "<path d=\"M {:.1f} {:.1f} A {:.1f} {:.1f} 0 {} {} {:.1f} {:.1f}\" fill=\"none\" stroke=\"{}\" "
         "stroke-width=\"4\"/>\n",
         x(span.to.x), y(span.to.y), c.radius * scale, c.radius * scale, route.wrap[j] > std::numbers::pi ? 1 : 0,
-        c.turn > 0 ? 0 : 1, x(next.from.x), y(next.from.y), colour(0.5 * (tension[i] + tension[j]), *low, *high));
+        c.turn > 0 ? 0 : 1, x(next.from.x), y(next.from.y), colour(0.5 * (tension[i] + tension[j]), low, high));
     // An arrow head in the middle of the span, the way the belt runs.
     const double mx = x(0.5 * (span.from.x + span.to.x)), my = y(0.5 * (span.from.y + span.to.y));
     const double ux = ahead * span.direction.x, uy = -ahead * span.direction.y;
     s += fmt::format("<path d=\"M {:.1f} {:.1f} L {:.1f} {:.1f} L {:.1f} {:.1f} Z\" fill=\"{}\"/>\n", mx + 8 * ux,
                      my + 8 * uy, mx - 6 * ux - 6 * uy, my - 6 * uy + 6 * ux, mx - 6 * ux + 6 * uy,
-                     my - 6 * uy - 6 * ux, colour(tension[i], *low, *high));
+                     my - 6 * uy - 6 * ux, colour(tension[i], low, high));
     const Label label = beside(obstacles.lines[i], 20, obstacles);
     obstacles.labels.push_back(label);
     s += fmt::format(
@@ -169,9 +193,9 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
       "<line x1=\"20\" y1=\"{0:.0f}\" x2=\"{1:.0f}\" y2=\"{0:.0f}\" stroke=\"#333\" stroke-width=\"2\"/><text x=\"20\" "
       "y=\"{2:.0f}\">100 mm</text>\n</svg>\n<figcaption>{5}. Arrows show the way the belt runs. "
       "Ribs run on the grey pulleys, the back on the beige ones.</figcaption>\n</figure>\n",
-      height - 22, 20 + 0.1 * scale, height - 6, *low, *high,
-      *high - *low < 0.5 ? fmt::format("Belt at {:.0f} N", *low)
-                         : fmt::format("Belt from blue, {:.0f} N, to red, {:.0f} N", *low, *high));
+      height - 22, 20 + 0.1 * scale, height - 6, low, high,
+      high - low < 0.5 ? fmt::format("Belt at {:.0f} N", low)
+                       : fmt::format("Belt from blue, {:.0f} N, to red, {:.0f} N", low, high));
   return s;
 }
 

@@ -94,32 +94,6 @@ void put_point(Hdf5Image& file, const std::string& at, const Model& m, const Mod
   put(file, spans, names::span_second, column(p.spans, [](const auto& s) { return s.frequency_hz[1]; }));
 }
 
-void put_map(Hdf5Image& file, const Campbell& map) {
-  const std::string at(names::map);
-  file.group(at, "natural frequencies over crank speed, one dataset a curve");
-  put(file, at, names::map_speed, map.crank_rpm);
-  UniqueNames unique;
-  unique.take(std::string(names::map_speed.name));
-  for (const FrequencyCurve& curve : map.curves) {
-    const std::string path = join(at, unique.take(curve.name));
-    file.dataset(path, curve.frequency_hz, names::map_curve.unit, names::map_curve.about);
-    file.attribute(path, names::name, curve.name);
-    file.attribute(path, names::curve_arm, curve.arm ? name_of(*curve.arm) : "");
-    file.attribute(path, names::curve_damping_ratio, curve.damping_ratio);
-  }
-}
-
-void put_crossings(Hdf5Image& file, const std::vector<Crossing>& crossings) {
-  const std::string at(names::crossings);
-  file.group(at, "orders of the driven body's rotation that meet a natural frequency, one row each");
-  put(file, at, names::crossing_order, column(crossings, [](const auto& c) { return c.order; }));
-  put(file, at, names::crossing_speed, column(crossings, [](const auto& c) { return c.crank_rpm; }));
-  put(file, at, names::mode_frequency, column(crossings, [](const auto& c) { return c.frequency_hz; }));
-  put(file, at, names::mode_damping, column(crossings, [](const auto& c) { return c.damping_ratio; }));
-  put(file, at, names::crossing_mode, words(crossings, [](const auto& c) { return c.mode; }));
-  put(file, at, names::crossing_near, words(crossings, [](const auto& c) { return c.near.value_or(""); }));
-}
-
 ArmState arm_of(const std::string& name) {
   for (const ArmState arm : {ArmState::free, ArmState::stuck, ArmState::locked})
     if (name == name_of(arm)) return arm;
@@ -193,9 +167,24 @@ Modes point_of(const Hdf5Source& file, const std::string& at) {
   return p;
 }
 
-Campbell map_of(const Hdf5Source& file) {
+}  // namespace
+
+void put_map(Hdf5Image& file, const std::string& at, const Campbell& map) {
+  file.group(at, "natural frequencies over crank speed, one dataset a curve");
+  put(file, at, names::map_speed, map.crank_rpm);
+  UniqueNames unique;
+  unique.take(std::string(names::map_speed.name));
+  for (const FrequencyCurve& curve : map.curves) {
+    const std::string path = join(at, unique.take(curve.name));
+    file.dataset(path, curve.frequency_hz, names::map_curve.unit, names::map_curve.about);
+    file.attribute(path, names::name, curve.name);
+    file.attribute(path, names::curve_arm, curve.arm ? name_of(*curve.arm) : "");
+    file.attribute(path, names::curve_damping_ratio, curve.damping_ratio);
+  }
+}
+
+Campbell read_map(const Hdf5Source& file, const std::string& at) {
   Campbell map;
-  const std::string at(names::map);
   if (file.children(at).empty()) return map;
   map.crank_rpm = file.numbers(join(at, names::map_speed.name));
   for (const std::string& name : file.children(at)) {
@@ -207,9 +196,18 @@ Campbell map_of(const Hdf5Source& file) {
   return map;
 }
 
-std::vector<Crossing> crossings_of(const Hdf5Source& file) {
+void put_crossings(Hdf5Image& file, const std::string& at, const std::vector<Crossing>& crossings) {
+  file.group(at, "orders of the driven body's rotation that meet a natural frequency, one row each");
+  put(file, at, names::crossing_order, column(crossings, [](const auto& c) { return c.order; }));
+  put(file, at, names::crossing_speed, column(crossings, [](const auto& c) { return c.crank_rpm; }));
+  put(file, at, names::mode_frequency, column(crossings, [](const auto& c) { return c.frequency_hz; }));
+  put(file, at, names::mode_damping, column(crossings, [](const auto& c) { return c.damping_ratio; }));
+  put(file, at, names::crossing_mode, words(crossings, [](const auto& c) { return c.mode; }));
+  put(file, at, names::crossing_near, words(crossings, [](const auto& c) { return c.near.value_or(""); }));
+}
+
+std::vector<Crossing> read_crossings(const Hdf5Source& file, const std::string& at) {
   std::vector<Crossing> found;
-  const std::string at(names::crossings);
   if (file.children(at).empty()) return found;
   const auto order = file.numbers(join(at, names::crossing_order.name));
   const auto values = [&](const names::Dataset& as) { return file.numbers(join(at, as.name), order.size()); };
@@ -223,8 +221,6 @@ std::vector<Crossing> crossings_of(const Hdf5Source& file) {
   return found;
 }
 
-}  // namespace
-
 void put_modes(Hdf5Image& file, const Model& m, const DriveModes& modes) {
   if (modes.points.empty()) return;
   const std::string ranges(names::modes_ranges);
@@ -233,8 +229,8 @@ void put_modes(Hdf5Image& file, const Model& m, const DriveModes& modes) {
   UniqueNames unique;
   for (const Modes& point : modes.points) put_point(file, join(ranges, unique.take(point.range.name)), m, point);
   if (modes.map.crank_rpm.empty()) return;
-  put_map(file, modes.map);
-  put_crossings(file, modes.crossings);
+  put_map(file, std::string(names::map), modes.map);
+  put_crossings(file, std::string(names::crossings), modes.crossings);
 }
 
 std::optional<DriveModes> read_modes(const Hdf5Source& file) {
@@ -242,8 +238,8 @@ std::optional<DriveModes> read_modes(const Hdf5Source& file) {
   if (file.children(ranges).empty()) return std::nullopt;
   DriveModes modes;
   for (const std::string& range : file.children(ranges)) modes.points.push_back(point_of(file, join(ranges, range)));
-  modes.map = map_of(file);
-  modes.crossings = crossings_of(file);
+  modes.map = read_map(file, std::string(names::map));
+  modes.crossings = read_crossings(file, std::string(names::crossings));
   return modes;
 }
 

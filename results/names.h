@@ -41,6 +41,12 @@ inline constexpr std::string_view energy = "/energy";
 inline constexpr std::string_view element = "/element";
 inline constexpr std::string_view spectra = "/spectra";
 inline constexpr std::string_view loop = "/loop";
+inline constexpr std::string_view frames = "/frames";
+inline constexpr std::string_view sweep = "/sweep";
+inline constexpr std::string_view sweep_amplitude = "/amplitude";  // below it, one CHANNEL a dataset
+inline constexpr std::string_view sweep_modes = "/map";            // likewise, one CURVE a dataset
+inline constexpr std::string_view sweep_crossings = "/crossings";
+inline constexpr std::string_view event = "/event";
 
 // Attributes.
 inline constexpr std::string_view root_format = "format";
@@ -102,6 +108,11 @@ inline constexpr std::string_view remarks = "remarks";
 inline constexpr std::string_view curve_arm = "arm";
 inline constexpr std::string_view curve_damping_ratio = "damping_ratio";
 
+inline constexpr std::string_view sweep_from = "from_rpm";
+inline constexpr std::string_view sweep_to = "to_rpm";
+inline constexpr std::string_view sweep_seconds = "seconds";
+inline constexpr std::string_view sweep_window = "window_revolutions";
+
 // Datasets.
 inline constexpr Dataset time{"time_s", "s", "time since the start of the run"};
 
@@ -140,6 +151,14 @@ inline constexpr Dataset element_pulley{"pulley", "", "pulley in contact, by pos
 inline constexpr Dataset loop_x{"x_m", "m", "position of each belt node"};
 inline constexpr Dataset loop_y{"y_m", "m", "position of each belt node"};
 inline constexpr Dataset loop_tension{"tension_n", "N", "tension of the element that begins at the node"};
+
+inline constexpr Dataset frame_x{"x_m", "m", "position of each belt node, to 2^-20 m; a row a frame, a column a node"};
+inline constexpr Dataset frame_y{"y_m", "m", "position of each belt node, likewise"};
+inline constexpr Dataset frame_tension{"tension_n", "N", "tension of the element that begins at the node, to 2^-6 N"};
+inline constexpr Dataset frame_angle{"pulley_angle_rad", "rad",
+                                     "turn of each pulley since the start of the run, counterclockwise, to 2^-16 rad"};
+inline constexpr Dataset frame_centre_x{"pulley_x_m", "m", "centre of each pulley; the tensioner's moves"};
+inline constexpr Dataset frame_centre_y{"pulley_y_m", "m", "centre of each pulley; the tensioner's moves"};
 
 inline constexpr Dataset frequency{"frequency_hz", "Hz", "frequency of each bin of the amplitude spectra beside it"};
 
@@ -209,6 +228,12 @@ inline constexpr Dataset crossing_order{"order", "", "cycles per revolution of t
 inline constexpr Dataset crossing_speed{"crank_rpm", "r/min", "where the order meets the natural frequency"};
 inline constexpr Dataset crossing_mode{"mode", "", "name of the curve in the map"};
 inline constexpr Dataset crossing_near{"near", "", "range within 5 % of the speed; empty: none"};
+
+inline constexpr Dataset sweep_speed{"crank_rpm", "r/min",
+                                     "mean speed of the driven body in the middle of each window"};
+inline constexpr Dataset sweep_order{"order", "", "cycles per revolution of the driven body"};
+inline constexpr std::string_view sweep_amplitude_about =
+    "amplitude of each order (row) at each place of the sweep (column); NaN above half the sampling rate";
 
 // Study files (study_file.h). PARAMETER and QUANTITY are the study's names, what is below /answer the driver's.
 inline constexpr std::string_view study = "study";  // value of root_kind; a result file of a run has no such attribute

@@ -22,8 +22,14 @@ figure{margin:.5rem 0}figure svg{max-width:100%;height:auto}figcaption{font-size
 details>summary{cursor:pointer;font-weight:bold;padding:.4rem 0}pre{overflow-x:auto;font-size:.8rem;background:#f6f6f6;padding:.5rem}
 [id$=-words] td:last-child{white-space:normal;min-width:20rem}.charts>div{min-width:0}p a{color:#0b61a4}
 #noise figure,#responses figure,#steps figure,#errors figure,#points figure{max-width:600px}
-@media(max-width:600px){[id^=study-] td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9rem}}
-@media print{details{display:block}details>*{display:block}nav{display:none}.scroll{overflow:visible}figure{break-inside:avoid}})";
+.run{display:flex;flex-wrap:wrap;gap:1rem;align-items:center}.run canvas{display:block;max-width:100%}.run>div{flex:1 1 20rem;min-width:0}.run p{margin:.3rem 0}.player{display:flex;flex-wrap:wrap;gap:.4rem .9rem;align-items:center;margin:.5rem 0;font-size:.95rem}
+.player button,.player select{font:inherit;padding:.25rem .6rem;min-height:2.2rem}.player button{min-width:5rem}.player .time{flex:1 1 14rem;display:flex;gap:.4rem;align-items:center}.player .time input{flex:1;min-width:0;min-height:2.2rem}
+.scale{display:flex;gap:.5rem;align-items:center;font-size:.88rem;max-width:30rem}.colours{flex:1;height:.7rem;background:linear-gradient(90deg,rgb(20,90,210),rgb(220,30,40));print-color-adjust:exact;-webkit-print-color-adjust:exact}.printed{display:none}
+p,li{overflow-wrap:break-word}
+@media(max-width:600px){td:first-child{white-space:normal;min-width:6rem;max-width:11rem;overflow-wrap:break-word}[id^=study-] td:first-child{white-space:normal;overflow-wrap:anywhere;min-width:9rem}}
+@media print{.player,#animation-now{display:none}.printed{display:inline}details{display:block}details>*{display:block}nav{display:none}.scroll{overflow:visible}figure,tr{break-inside:avoid}
+h2,h3{break-after:avoid}details::details-content{content-visibility:visible;block-size:auto}a,p a{color:inherit;text-decoration:none}
+body{font-size:11pt;max-width:none;padding:0}table{font-size:8pt}th,td{white-space:normal;padding:.1rem .3rem}td:first-child{position:static}pre{white-space:pre-wrap;overflow-wrap:anywhere}})";
 
 }  // namespace
 

@@ -13,7 +13,7 @@ struct Section {
   std::string html;   ///< empty: there is nothing to say
 };
 
-/// One self-contained page: no scripts, nothing from elsewhere.
+/// One self-contained page: nothing from elsewhere.
 std::string page_html(const std::string& title, const std::vector<Section>& sections);
 
 }  // namespace beltlife

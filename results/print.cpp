@@ -61,7 +61,7 @@ nlohmann::json json_of(const RangeSummary& s) {
                             {"hub_load_n", finite(p.hub_load_n)},
                             {"hub_load_n_max", finite(p.hub_load_n_max)},
                             {"hub_direction_deg", finite(p.hub_direction_deg)}});
-  for (std::size_t i = 0; i < s.power_w.size(); ++i) j["power_w"][std::string(energy_names[i])] = finite(s.power_w[i]);
+  j["power_w"] = json_of_powers(s.power_w);
   j["energy_residual"] = finite(s.energy_residual);
   j["drift"] = finite(s.drift);
   for (const Quantity& q : quantities_of(s)) j["quantities"][q.name] = finite(q.value);
@@ -134,6 +134,20 @@ std::string text_of(const RunStatus& status) {
                      status.advice);
 }
 
+std::string power_text(const std::vector<double>& power_w, double residual) {
+  Table power({"power", "W"});
+  for (std::size_t i = 0; i < power_w.size(); ++i)
+    if (static_cast<Energy>(i) == Energy::stored || power_w[i] != 0)
+      power.row({std::string(energy_names[i]), fixed_text(power_w[i], 1)});
+  return power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * residual);
+}
+
+nlohmann::json json_of_powers(const std::vector<double>& power_w) {
+  nlohmann::json j = nlohmann::json::object();
+  for (std::size_t i = 0; i < power_w.size(); ++i) j[std::string(energy_names[i])] = finite(power_w[i]);
+  return j;
+}
+
 std::string text_of(const RangeSummary& s) {
   std::string out = fmt::format("Range {}, {:g} r/min{}\n\n", s.name, s.crank_rpm, s.complete ? "" : " (incomplete)");
   Table spans({"span", "tension N mean", "min", "max", "deflection mm min", "max"});
@@ -157,11 +171,7 @@ std::string text_of(const RangeSummary& s) {
                     number_text(line.speed_rpm, "{:.3f}"), number_text(line.torque_n_m, "{:.3f}")});
     out += orders.text(4) + "\n";
   }
-  Table power({"power", "W"});
-  for (std::size_t i = 0; i < s.power_w.size(); ++i)
-    if (static_cast<Energy>(i) == Energy::stored || s.power_w[i] != 0)
-      power.row({std::string(energy_names[i]), fixed_text(s.power_w[i], 1)});
-  out += power.text(2) + fmt::format("  not accounted for: {:.3f} % of the throughput\n", 100 * s.energy_residual);
+  out += power_text(s.power_w, s.energy_residual);
   out +=
       fmt::format("  mean span tensions change by {:.2f} % at most from the first half of the window to the second\n",
                   100 * s.drift);

@@ -18,6 +18,9 @@ nlohmann::json json_of(const RangeLoad& load);
 nlohmann::json json_of(const RunStatus& status);
 
 std::string text_of(const RangeSummary& summary);
+/// Mean powers by Energy as a table, those that are zero left out, and what of the throughput is not accounted for.
+std::string power_text(const std::vector<double>& power_w, double residual);
+nlohmann::json json_of_powers(const std::vector<double>& power_w);
 /// How a range that may end early did end, in words; empty of one that may not, or that failed.
 std::string settling_text(const RunRecord& run, const ProfileSpec& profile);
 /// `over` says of what: "the duty cycle", "range B100 alone".

@@ -48,10 +48,12 @@ LoadedScene scene_of(const StudyRecord& record, const StudyPoint& point, const C
 }
 
 // As the evaluator ran it, so that the bits are the same: lanes as noted, once more at half the step if it failed.
-std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan>& plans, bool drives, int threads) {
+std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan>& plans, bool drives,
+                                 const CommandOptions& o) {
   std::vector<RunRecord> records(plans.size());
   const auto run_one = [&](const Model& model, const RunPlan& plan) {
     RunOptions options;
+    options.frames = l.out.empty() ? 0 : o.frames;
     if (plan.settled_within)
       options.enough = [&](const RunRecord& record) { return settled(model, record, *plan.settled_within); };
     RunRecord record =
@@ -61,7 +63,7 @@ std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan
     if (plan.settled_within) keep_last_window(model, record);
     return record;
   };
-  parallel_for(static_cast<int>(plans.size()), threads, [&](int i) {
+  parallel_for(static_cast<int>(plans.size()), o.threads, [&](int i) {
     const auto k = static_cast<std::size_t>(i);
     records[k] = run_one(l.model, plans[k]);
     if (records[k].status.ok() || !drives) return;
@@ -148,7 +150,7 @@ int run_replay(const CommandOptions& o) {
   if (record.head.scene_text.empty()) return replay_command(record, point, o);
   const LoadedScene l = scene_of(record, point, o);
   const auto plans = plans_of(l.file.scene, ranges_for(l.file.scene, record.head.quantities), l.speed());
-  std::vector<RunRecord> records = run_again(l, plans, record.head.lanes != "arcs", o.threads);
+  std::vector<RunRecord> records = run_again(l, plans, record.head.lanes != "arcs", o);
   const auto loads = loads_of(l, records);
   const Life life = life_of(l, loads, records);
   const auto summaries = summaries_of(l, records);

@@ -2,6 +2,7 @@
 #include "results/report.h"
 
 #include "results/page.h"
+#include "results/report_animation.h"
 #include "results/report_sections.h"
 
 namespace beltlife {
@@ -11,9 +12,12 @@ std::string report_html(const ResultFile& file, const std::string& name) {
   return page_html(s.model.scene.title.empty() ? name : s.model.scene.title,
                    {{"summary", "", summary_section(s)},
                     {"layout", "Layout", layout_section(s)},
+                    {"animation", "Running belt", animation_section(s)},
                     {"life", "Life", life_section(s)},
                     {"statics", "Statics", statics_section(s)},
                     {"modes", "Modes", modes_section(s)},
+                    {"sweep", "Sweep", sweep_section(s)},
+                    {"event", "Event", event_section(s)},
                     {"losses", "Power and losses", losses_section(s)},
                     {"ranges", "Ranges", ranges_section(s)},
                     {"warnings", "Warnings", warnings_section(s)},

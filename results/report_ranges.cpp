@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "results/gnuplot.h"
 #include "results/html.h"
@@ -14,20 +13,6 @@
 
 namespace beltlife {
 namespace {
-
-std::span<const double> in_window(const Subject::Range& r, const std::string& channel) {
-  const Channel* c = r.run->trace.find(channel);
-  if (!c) return {};
-  return std::span(c->values).subspan(r.window->first_sample, r.window->last_sample - r.window->first_sample);
-}
-
-/// Time from the start of the window.
-std::vector<double> window_time(const Subject::Range& r) {
-  std::vector<double> t;
-  for (std::size_t i = r.window->first_sample; i < r.window->last_sample; ++i)
-    t.push_back(r.run->trace.time_s[i] - r.window->begin_s);
-  return t;
-}
 
 std::string output_charts(const Subject& s, const Subject::Range& r) {
   if (!r.summary.output) return "";

@@ -21,7 +21,11 @@ std::string where(const std::string& what, const Subject::Range& range) { return
 /// What the page says, in words.
 std::string lead(const Subject& s) {
   std::string words;
-  if (!s.life) {
+  if (s.file.sweep || s.file.event) {
+    words = fmt::format(
+        "This page is about {}, which says nothing of the belt's life. ",
+        s.file.sweep ? "<a href=\"#sweep\">a sweep through crank speeds</a>" : "<a href=\"#event\">an event</a>");
+  } else if (!s.life) {
     words = s.model.scene.range.empty() ? "The scene has no operating ranges, so nothing is said of the belt's life. "
                                         : "No range ran to its end, so no life can be stated. ";
   } else if (s.life->error) {
@@ -108,12 +112,10 @@ std::string layout_section(const Subject& s) {
   if (s.model.pulleys == 0) return "";
   const SceneSpec& scene = s.model.scene;
   const Layout& rest = s.model.statics.balance;
-  std::vector<double> tension(static_cast<std::size_t>(s.model.pulleys), rest.tension);
-  double arm = rest.arm_angle;
+  const Subject::Range* shown = shown_range(s);
+  const DrawnState state = drawn_state(s, shown);
   std::string words = "Drawn at rest. ";
-  if (const Subject::Range* shown = shown_range(s)) {
-    for (std::size_t i = 0; i < shown->summary.spans.size(); ++i) tension[i] = shown->summary.spans[i].tension_n_mean;
-    arm = shown->summary.arm_angle_mean.value_or(arm);
+  if (shown) {
     words = "Mean tensions in range " + html_escaped(shown->window->range) +
             (s.model.tensioner.pulley >= 0 ? ", the arm at its mean angle. " : ". ");
   }
@@ -140,27 +142,15 @@ std::string layout_section(const Subject& s) {
     rows.push_back(std::move(row));
   }
   return "<section id=\"layout\"><h2>Layout</h2><p>" + words + ".</p>\n" +
-         layout_svg(s.model, arm, tension, "layout-drawing") + "<h3>Positions, wraps and spans at rest</h3>\n" +
-         html_table("layout-table", header, rows) + "</section>\n";
+         layout_svg(s.model, state.arm, state.tension, "layout-drawing") +
+         "<h3>Positions, wraps and spans at rest</h3>\n" + html_table("layout-table", header, rows) + "</section>\n";
 }
 
 std::string losses_section(const Subject& s) {
+  if (s.ranges.empty()) return "";
   Row header{"mean power, W"}, rest{"not accounted for, % of what went through"};
   std::vector<Row> rows(energy_names.size());
-  // In the order of Energy.
-  constexpr const char* words[] = {"put in by the driver",
-                                   "put in by torque tables",
-                                   "lost in the belt, axial damping",
-                                   "lost in the belt, bending damping",
-                                   "lost in contact, normal damping",
-                                   "lost in friction between belt and pulleys",
-                                   "lost in shafts",
-                                   "lost in gears",
-                                   "lost in the tensioner, damping",
-                                   "lost in the tensioner, dry friction",
-                                   "stored, kinetic and elastic"};
-  static_assert(std::size(words) == energy_names.size());
-  for (std::size_t i = 0; i < energy_names.size(); ++i) rows[i].push_back(words[i]);
+  for (std::size_t i = 0; i < energy_names.size(); ++i) rows[i].push_back(energy_words[i]);
   for (const auto& range : s.ranges) {
     header.push_back(range.window->range);
     for (std::size_t i = 0; i < energy_names.size(); ++i) rows[i].push_back(html_number(range.summary.power_w[i], 1));

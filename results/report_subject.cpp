@@ -46,6 +46,29 @@ const Subject::Range* shown_range(const Subject& s) {
   return &s.ranges.front();
 }
 
+std::span<const double> in_window(const Subject::Range& r, const std::string& channel) {
+  const Channel* c = r.run->trace.find(channel);
+  if (!c) return {};
+  return std::span(c->values).subspan(r.window->first_sample, r.window->last_sample - r.window->first_sample);
+}
+
+std::vector<double> window_time(const Subject::Range& r) {
+  std::vector<double> t;
+  for (std::size_t i = r.window->first_sample; i < r.window->last_sample; ++i)
+    t.push_back(r.run->trace.time_s[i] - r.window->begin_s);
+  return t;
+}
+
+DrawnState drawn_state(const Subject& s, const Subject::Range* range) {
+  const Layout& rest = s.model.statics.balance;
+  DrawnState state{std::vector<double>(static_cast<std::size_t>(s.model.pulleys), rest.tension), rest.arm_angle};
+  if (!range) return state;
+  for (std::size_t i = 0; i < range->summary.spans.size(); ++i)
+    state.tension[i] = range->summary.spans[i].tension_n_mean;
+  state.arm = range->summary.arm_angle_mean.value_or(rest.arm_angle);
+  return state;
+}
+
 bool slips(const QuasiStaticPulley& p) {
   constexpr double rounding = 1e-6;  // a locked pulley slides at exactly 1
   return p.slip_safety && *p.slip_safety < 1 - rounding;
@@ -83,6 +106,13 @@ std::vector<std::string> warnings(const Subject& s) {
         out.push_back(fmt::format("{}: {} slips by {:.1f} % against the driven pulley.", range.window->range, p.name,
                                   *p.slip_percent));
   }
+  const auto unbalanced = [&](const char* what, const EnergyAccount& account) {
+    if (std::abs(account.relative_residual()) > 0.005)
+      out.push_back(fmt::format("{}: {:.2f} % of the energy that went through is not accounted for.", what,
+                                100 * std::abs(account.relative_residual())));
+  };
+  if (s.file.sweep) unbalanced("Sweep", s.file.sweep->energy);
+  if (s.file.event) unbalanced("Event", s.file.event->energy);
   if (s.file.statics)
     for (const QuasiStaticRange& range : s.file.statics->ranges) {
       if (range.error) out.push_back(fmt::format("{}: no quasi-static solution: {}.", range.name, *range.error));

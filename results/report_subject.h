@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,19 @@ Governing governing(const Life& life);
 
 /// The range that a page shows first: the one that does most of the damage, else the first; null if none was evaluated.
 const Subject::Range* shown_range(const Subject& subject);
+
+/// A channel's samples in the range's window; none if it was not recorded.
+std::span<const double> in_window(const Subject::Range& range, const std::string& channel);
+/// Time of each of them from the start of the window, s.
+std::vector<double> window_time(const Subject::Range& range);
+
+/// How a drive is drawn.
+struct DrawnState {
+  std::vector<double> tension;  ///< N, mean, one a span
+  double arm = 0;               ///< rad, mean
+};
+/// In a range; at rest if it is null.
+DrawnState drawn_state(const Subject& subject, const Subject::Range* range);
 
 /// Of what the life is: of the duty cycle only if the file holds all its ranges.
 std::string life_over(const Subject& subject);

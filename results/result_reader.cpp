@@ -3,10 +3,13 @@
 
 #include <cmath>
 
+#include "results/energy_group.h"
+#include "results/frames_group.h"
 #include "results/hdf5_source.h"
 #include "results/modes_group.h"
 #include "results/names.h"
 #include "results/statics_group.h"
+#include "results/sweep_group.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -71,7 +74,7 @@ WindowRecord window_of(const Hdf5Source& file, const std::string& at) {
   const std::string passes = at + std::string(names::passes);
   for (const std::string& pulley : file.children(passes)) w.passes.push_back(passes_of(file, below(passes, pulley)));
   const std::string energy = at + std::string(names::energy);
-  for (std::size_t i = 0; i < energy_names.size(); ++i) w.energy.joule[i] = file.number(below(energy, energy_names[i]));
+  w.energy = read_energy(file, energy);
   const std::string element = at + std::string(names::element);
   w.element.time_s = file.numbers(below(element, names::time.name));
   w.element.normal_n = file.numbers(below(element, names::element_normal.name));
@@ -82,6 +85,7 @@ WindowRecord window_of(const Hdf5Source& file, const std::string& at) {
   w.loop.x_m = file.numbers(below(loop, names::loop_x.name));
   w.loop.y_m = file.numbers(below(loop, names::loop_y.name));
   w.loop.tension_n = file.numbers(below(loop, names::loop_tension.name));
+  w.frames = read_frames(file, at + std::string(names::frames));
   return w;
 }
 
@@ -113,6 +117,12 @@ ResultFile read_results(const std::filesystem::path& path) {
   }
   out.statics = read_statics(file);
   out.modes = read_modes(file);
+  out.sweep = read_sweep(file);
+  out.event = read_event(file);
+  if (out.event && (out.runs.empty() || out.event->first_sample > out.event->last_sample ||
+                    out.event->last_sample > out.runs.front().trace.time_s.size()))
+    throw BadInput({Problem{path.string(), 0, std::string(names::event), "lies outside the trace of the first run",
+                            "a whole result file"}});
   return out;
 }
 

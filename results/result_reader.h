@@ -15,6 +15,8 @@ struct ResultFile {
   std::vector<RunRecord> runs;
   std::optional<DriveStatics> statics;
   std::optional<DriveModes> modes;
+  std::optional<Sweep> sweep;
+  std::optional<WindowRecord> event;  ///< of the first run; without contact forces
 };
 
 /// Reads what write_results wrote; what is derived from the runs (summaries, life) is worked out again from them.

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "results/energy_group.h"
 #include "results/file_paths.h"
+#include "results/frames_group.h"
 #include "results/modes_group.h"
 #include "results/statics_group.h"
+#include "results/sweep_group.h"
 #include "results/whole_file.h"
 #include "sim/scene/scene_io.h"
 #include "sim/signal/spectrum.h"
@@ -77,15 +80,6 @@ void put_passes(Hdf5Image& file, const std::string& at, const PassForces& forces
   put(file, at, names::tangential_sampled, forces.tangential_sampled);
 }
 
-void put_energy(Hdf5Image& file, const std::string& at, const EnergyAccount& account) {
-  file.group(at, "energy account of the window");
-  file.attribute(at, names::energy_relative_residual, account.relative_residual());
-  for (std::size_t i = 0; i < energy_names.size(); ++i)
-    file.scalar(join(at, energy_names[i]), account.joule[i], "J", names::energy_about[i]);
-  file.scalar(join(at, names::residual.name), account.residual(), names::residual.unit, names::residual.about);
-  file.scalar(join(at, names::throughput.name), account.throughput(), names::throughput.unit, names::throughput.about);
-}
-
 void put_element(Hdf5Image& file, const std::string& at, const ElementHistory& element) {
   file.group(at, "what one belt element met as it travelled");
   put(file, at, names::time, element.time_s);
@@ -147,6 +141,7 @@ void put_window(Hdf5Image& file, const std::string& at, std::size_t run_number, 
   put_energy(file, at + std::string(names::energy), window.energy);
   put_element(file, at + std::string(names::element), window.element);
   put_loop(file, at + std::string(names::loop), window.loop);
+  put_frames(file, at + std::string(names::frames), window.frames);
   put_spectra(file, at + std::string(names::spectra), run.trace, window);
 }
 
@@ -190,7 +185,7 @@ void put_life(Hdf5Image& file, const Life& life) {
 }
 
 std::vector<char> image_of(const Provenance& provenance, const std::vector<RunRecord>& runs, const Life* life,
-                           const SolvedDrive* solved) {
+                           const SolvedDrive* solved, const RunExtras& extras) {
   Hdf5Image file;
   put_root(file, provenance);
   file.group(std::string(names::runs), "simulated runs: the whole profile, or one for each range");
@@ -206,16 +201,18 @@ std::vector<char> image_of(const Provenance& provenance, const std::vector<RunRe
     put_statics(file, solved->statics);
     put_modes(file, solved->model, solved->modes);
   }
+  if (extras.sweep) put_sweep(file, *extras.sweep);
+  if (extras.event) put_event(file, *extras.event);
   return file.bytes();
 }
 
 }  // namespace
 
 void write_results(const std::filesystem::path& path, const Provenance& provenance, const std::vector<RunRecord>& runs,
-                   const Life* life, const SolvedDrive* solved) {
+                   const Life* life, const SolvedDrive* solved, const RunExtras& extras) {
   check_writable(path);
   // A failure of the library in memory is a bug of ours, not of the path: it passes through.
-  write_whole_file(path, image_of(provenance, runs, life, solved));
+  write_whole_file(path, image_of(provenance, runs, life, solved, extras));
 }
 
 }  // namespace beltlife

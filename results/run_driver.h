@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "results/print.h"
+#include "results/ranks.h"
 #include "results/study_run.h"
 
 namespace beltlife {
@@ -33,10 +34,16 @@ int run_driver(const CommandOptions& o, const std::string& name) {
     input.spec.problem = problem.spec;
   }
 
+  PointModel model = driver.model(o.threads);
+  if (o.ranks && !o.ranks->leads()) {
+    o.ranks->answer(model);
+    return 0;
+  }
+  if (o.ranks) model = o.ranks->spread(std::move(model), o.threads);
   StudyHead head = driver.head();
   head.driver = name;
   head.study_text = write_spec(input.spec) + head.study_text;
-  StudyRun run(o, problem, std::move(head), driver.model(o.threads));
+  StudyRun run(o, problem, std::move(head), std::move(model));
   nlohmann::json answer;
   try {
     answer = driver.solve(run);

@@ -10,7 +10,6 @@
 
 #include "results/print.h"
 #include "results/progress.h"
-#include "results/results_file.h"
 
 namespace beltlife {
 namespace {
@@ -52,7 +51,7 @@ std::vector<RunOutcome> run_all(const LoadedScene& l, const std::vector<RunPlan>
   Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
   const auto start = std::chrono::steady_clock::now();
   auto outcomes = run_plans(
-      l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile);
+      l.model, plans, o.threads, [&](double done) { progress(done); }, o.profile, l.out.empty() ? 0 : o.frames);
   wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcomes;
 }
@@ -79,8 +78,8 @@ Life life_of(const LoadedScene& l, const std::vector<RangeLoad>& loads, const st
   return life;
 }
 
-void write_file(const LoadedScene& l, const std::vector<RunRecord>& records, const Life* life,
-                const CommandOptions& o) {
+void write_file(const LoadedScene& l, const std::vector<RunRecord>& records, const Life* life, const CommandOptions& o,
+                const RunExtras& extras) {
   if (l.out.empty()) return;
   const Provenance from{o.version,
                         o.command_line,
@@ -90,7 +89,7 @@ void write_file(const LoadedScene& l, const std::vector<RunRecord>& records, con
                         o.revision,
                         std::string(enum_name(l.file.scene.solver.scheme)),
                         l.model.belt.nodes};
-  write_results(l.out, from, records, life, l.solved ? &*l.solved : nullptr);
+  write_results(l.out, from, records, life, l.solved ? &*l.solved : nullptr, extras);
   if (!o.quiet) fmt::print(stderr, "wrote {}\n", l.out);
 }
 

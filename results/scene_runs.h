@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "results/loaded_scene.h"
+#include "results/results_file.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/eval/summary.h"
 #include "sim/life/loads.h"
@@ -25,7 +26,7 @@ std::vector<RangeSummary> summaries_of(const LoadedScene& scene, const std::vect
 
 /// The result file, if one is asked for.
 void write_file(const LoadedScene& scene, const std::vector<RunRecord>& records, const Life* life,
-                const CommandOptions& options);
+                const CommandOptions& options, const RunExtras& extras = {});
 
 /// Of ranges that may end early, how each ended: a line each.
 std::string settling_lines(const LoadedScene& scene, const std::vector<RunRecord>& records);

@@ -5,11 +5,14 @@
 
 #include "results/print.h"
 #include "results/scene_runs.h"
+#include "results/stretch_run.h"
 
 namespace beltlife {
 
 int run_simulate(const CommandOptions& o) {
+  if (!o.sweep.empty()) return run_sweep(o);
   const LoadedScene l = load_scene(o.scenes.at(0), o);
+  if (l.file.scene.event && !o.each_range && o.ranges.empty()) return run_event(l, o);
   const bool whole = !o.each_range && o.ranges.empty() && !l.file.scene.range.empty();
   const auto plans =
       whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());

@@ -102,6 +102,42 @@ RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const Measur
   return plan;
 }
 
+RunPlan plan_sweep(const SceneSpec& scene, const SweepSpec& sweep) {
+  const ProfileSpec& p = scene.profile;
+  const double start = p.settle_s + p.ramp_s, begin = start + p.hold_s - p.evaluate_s, end = begin + sweep.seconds;
+  std::vector<double> t{0, p.settle_s, start}, w{0, 0, sweep.from_rpm * rad_s};
+  if (begin > start) {
+    t.push_back(begin);
+    w.push_back(w.back());
+  }
+  t.push_back(end);
+  w.push_back(sweep.to_rpm * rad_s);
+  return {"sweep", synthetic(scene, t, w), {{"sweep", sweep.from_rpm, 0, begin, end, false}}, end};
+}
+
+RunPlan plan_event(const SceneSpec& scene) {
+  const ProfileSpec& p = scene.profile;
+  const EventSpec& event = *scene.event;
+  const double first = event.speeds_rpm.front() * rad_s;
+  std::vector<double> t{0}, w{0};
+  if (p.settle_s > 0) {
+    t.push_back(p.settle_s);
+    w.push_back(0);
+  }
+  if (first > 0) {
+    t.push_back(t.back() + p.ramp_s);
+    w.push_back(first);
+    t.push_back(t.back() + p.hold_s);
+    w.push_back(first);
+  }
+  const double begin = t.back();
+  for (std::size_t i = 1; i < event.times_s.size(); ++i) {
+    t.push_back(begin + event.times_s[i]);
+    w.push_back(event.speeds_rpm[i] * rad_s);
+  }
+  return {"event", synthetic(scene, t, w), {{"event", event.speeds_rpm.front(), 0, begin, t.back(), false}}, t.back()};
+}
+
 RunPlan plan_rest(const SceneSpec& scene) {
   const ProfileSpec& p = scene.profile;
   RunPlan plan{"rest", {}, {}, p.settle_s + p.hold_s};

@@ -16,6 +16,8 @@ struct Window {
   double crank_rpm = 0;
   double duty_share = 0;
   double begin_s = 0, end_s = 0;
+  /// Record forces per belt pass and those on a travelling element: what stresses need, and megabytes a minute.
+  bool contact_forces = true;
 };
 
 struct RunPlan {
@@ -42,6 +44,20 @@ RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured = nul
 /// As plan_range, with every stretch of evaluate_s of the hold as a window, one behind the other, so that the run can
 /// end early. The last window is that of plan_range.
 RunPlan plan_blocks(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured = nullptr);
+
+/// A steady change of the driven body's speed.
+struct SweepSpec {
+  double from_rpm = 0, to_rpm = 0;
+  double seconds = 0;
+};
+
+/// Settle at rest, ramp to the first speed, hold it as long as a range holds before it is evaluated, then sweep. One
+/// window, "sweep", over the sweep, without contact forces. The scene has a driver.
+RunPlan plan_sweep(const SceneSpec& scene, const SweepSpec& sweep);
+
+/// The scene's event, preceded by settling at rest and, unless it starts from there, by ramp and hold at its first
+/// speed. One window, "event", over the event, without contact forces. The scene has an event.
+RunPlan plan_event(const SceneSpec& scene);
 
 /// A scene without ranges: settle and hold, with one window named "rest".
 RunPlan plan_rest(const SceneSpec& scene);

@@ -95,6 +95,22 @@ struct LoopSnapshot {
   std::vector<double> tension_n;  ///< of the element that begins at the node
 };
 
+/// The moving drive, frame by frame: at equal times, each taken at the next observation (up to 1e-4 s later), the last
+/// one at the window's end. Matrices are one frame after the other. Rounded to what nobody sees: files stay small.
+struct Frames {
+  static constexpr double position_step = 1.0 / (1 << 20);  ///< m, 1 micrometre
+  static constexpr double tension_step = 1.0 / (1 << 6);    ///< N
+  static constexpr double angle_step = 1.0 / (1 << 16);     ///< rad
+
+  std::vector<double> time_s;                  ///< in the run's own time
+  std::vector<double> x_m, y_m, tension_n;     ///< by frame and node, as in LoopSnapshot
+  std::vector<double> pulley_angle_rad;        ///< by frame and pulley, counterclockwise since the start of the run
+  std::vector<double> pulley_x_m, pulley_y_m;  ///< centres; only the tensioner's moves
+
+  std::size_t nodes() const { return time_s.empty() ? 0 : x_m.size() / time_s.size(); }
+  std::size_t pulleys() const { return time_s.empty() ? 0 : pulley_x_m.size() / time_s.size(); }
+};
+
 /// What one evaluated window (the last second of a range) recorded.
 struct WindowRecord {
   std::string range;
@@ -109,6 +125,7 @@ struct WindowRecord {
   EnergyAccount energy;
   ElementHistory element;
   LoopSnapshot loop;  ///< at the end of the window
+  Frames frames;      ///< empty unless asked for
 };
 
 /// Everything a run leaves behind.

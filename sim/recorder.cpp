@@ -10,8 +10,8 @@ constexpr double history_s = 5e-5;  // of the travelling element: 1 mm at 20 m/s
 
 }  // namespace
 
-Recorder::Recorder(const Model& model, const RunPlan& plan, RunRecord& record)
-    : model_(model), plan_(plan), record_(record), sensors_(model) {
+Recorder::Recorder(const Model& model, const RunPlan& plan, RunRecord& record, int frames)
+    : model_(model), plan_(plan), record_(record), sensors_(model), frames_(model, frames) {
   record.trace.channels = channels_of(model);
   const auto samples = static_cast<std::size_t>(plan.end_s * model.scene.solver.sample_rate_hz) + 2;
   record.trace.time_s.reserve(samples);
@@ -23,6 +23,11 @@ Recorder::Recorder(const Model& model, const RunPlan& plan, RunRecord& record)
     r.duty_share = w.duty_share;
     r.begin_s = w.begin_s;
     r.end_s = w.end_s;
+    if (!w.contact_forces) {
+      record.windows.push_back(std::move(r));
+      trackers_.push_back(nullptr);
+      continue;
+    }
     const auto points = static_cast<std::size_t>((w.end_s - w.begin_s) / history_s) + 16;
     for (auto* v : {&r.element.time_s, &r.element.normal_n, &r.element.tangential_n, &r.element.tension_n})
       v->reserve(points);
@@ -47,7 +52,8 @@ bool Recorder::turn(const DriveView& s) {
     last_observed_ = s.time();
     last_history_ = s.time() - history_s;
     record_.windows[next_].first_sample = record_.trace.time_s.size();
-    trackers_[next_]->open(s.state());
+    if (trackers_[next_]) trackers_[next_]->open(s.state());
+    frames_.open(plan_.windows[next_], s.profile(), record_.windows[next_].frames);
   }
   return closed;
 }
@@ -60,18 +66,19 @@ void Recorder::close(const DriveView& s, bool complete) {
   w.energy[Energy::lost_friction] -= end.anchors - begin_.anchors;
   w.energy[Energy::lost_tensioner_friction] -= end.arm_anchor - begin_.arm_anchor;
   w.last_sample = record_.trace.time_s.size();
-  w.passes = trackers_[next_]->take();
+  if (trackers_[next_]) w.passes = trackers_[next_]->take();
   w.complete = complete;
   const Coordinates& q = s.state().q;
   w.loop.x_m.assign(q.x.data(), q.x.data() + q.x.size());
   w.loop.y_m.assign(q.y.data(), q.y.data() + q.y.size());
   w.loop.tension_n.assign(s.work().tension.data(), s.work().tension.data() + q.x.size());
+  if (plan_.settled_within && next_ > 0) record_.windows[next_ - 1].frames = {};  // of stretches the last one stays
   open_ = false;
   ++next_;
 }
 
 void Recorder::searched(const DriveView& s) {
-  if (open_) trackers_[next_]->searched(s.state());
+  if (open_ && trackers_[next_]) trackers_[next_]->searched(s.state());
 }
 
 void Recorder::observe(const DriveView& s, bool sample) {
@@ -80,13 +87,19 @@ void Recorder::observe(const DriveView& s, bool sample) {
   WindowRecord& w = record_.windows[next_];
   const EnergyAccount p = powers(s);
   for (std::size_t i = 0; i < p.joule.size(); ++i) w.energy.joule[i] += elapsed * p.joule[i];
+  frames_.observe(s, w.frames);
   if (model_.pulleys == 0) return;
-  const double largest = trackers_[next_]->observe(s.state(), s.work(), sample);
+  double largest = 0;
+  if (trackers_[next_])
+    largest = trackers_[next_]->observe(s.state(), s.work(), sample);
+  else
+    for (int i = 0; i < model_.belt.nodes; ++i) largest = std::max(largest, s.work().normal[i]);
   double friction = 0;
   for (double mu : model_.pulley_friction) friction = std::max(friction, mu);
   const bool explicit_scheme = model_.scene.solver.scheme != Scheme::linearly_implicit;
   if (explicit_scheme && s.step() * (axial_damping_rate(model_) + friction_damping_rate(model_, friction, largest)) > 2)
     record_.friction_overdamped_s += elapsed;
+  if (!trackers_[next_]) return;
   if (s.time() - last_history_ >= history_s - 0.5 * s.step()) {
     last_history_ = s.time();
     ElementHistory& e = w.element;

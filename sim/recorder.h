@@ -1,10 +1,12 @@
-// Owns what is recorded of a running drive: samples of all channels, and of evaluated windows passes, energy, history.
+// Owns what is recorded of a running drive: samples of all channels; of evaluated windows passes, energy, history,
+// frames.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "sim/energy.h"
+#include "sim/frame_taker.h"
 #include "sim/pass_tracker.h"
 #include "sim/plan.h"
 #include "sim/record.h"
@@ -12,11 +14,11 @@
 
 namespace beltlife {
 
-/// Buffers are reserved up front; recording allocates nothing.
+/// Buffers are reserved up front, those of frames as a window opens; recording allocates nothing.
 class Recorder {
  public:
-  /// Model, plan and record must outlive it.
-  Recorder(const Model& model, const RunPlan& plan, RunRecord& record);
+  /// Model, plan and record must outlive it. `frames` of the moving drive are kept at the end of each window.
+  Recorder(const Model& model, const RunPlan& plan, RunRecord& record, int frames = 0);
 
   /// Whether an evaluated window is open.
   bool open() const { return open_; }
@@ -36,6 +38,7 @@ class Recorder {
   const RunPlan& plan_;
   RunRecord& record_;
   Sensors sensors_;
+  FrameTaker frames_;
   std::vector<std::unique_ptr<PassTracker>> trackers_;
   std::size_t next_ = 0;  // window that is open or comes next
   bool open_ = false;

@@ -39,7 +39,7 @@ RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& option
   const double h = run_step(model);
   Simulator s(model, plan.profile, model.scene.solver.scheme, h);
   s.profile_kernels(options.profile_kernels);
-  Recorder recorder(model, plan, record);
+  Recorder recorder(model, plan, record, options.frames);
   record.step_s = h;
 
   const auto steps_of = [&](double seconds) {

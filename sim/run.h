@@ -15,6 +15,8 @@ namespace beltlife {
 struct RunOptions {
   /// Sample channels from the first evaluated window on only; false: from rest.
   bool windows_only = false;
+  /// Frames of the moving drive kept at the end of each evaluated window; fewer where a window has fewer observations.
+  int frames = 0;
   /// Called as an evaluated window ends with what was recorded so far; true ends the run there. May be empty.
   std::function<bool(const RunRecord&)> enough;
   /// Called with simulated seconds done, now and then; may be empty.

@@ -56,6 +56,10 @@ std::vector<Channel> channels_of(const Model& m) {
         "sum of the tangential contact forces on the pulley, in the running sense");
     add(pulley + ".hub_load_x_n", "N", "force of the belt on the pulley");
     add(pulley + ".hub_load_y_n", "N", "force of the belt on the pulley");
+    if (!m.scene.event) continue;
+    add(pulley + ".slip_speed_m_s", "m/s",
+        "speed of the belt ahead of the pulley's surface, mean over the contact by normal force, in the running sense");
+    add(pulley + ".slip_power_w", "W", "dissipated by friction between belt and pulley");
   }
   for (const auto& s : m.scene.torsional_spring) {
     add("spring." + s.name + ".torque_n_m", "N m", "torque from " + s.from + " to " + s.to + ", in the running sense");
@@ -155,16 +159,23 @@ void Sensors::sample(const DriveView& s, std::vector<Channel>& channels) {
       put(channels, at, reference > 1e-3 ? 100 * (1 - surface / reference) : 0.0);
     }
     put(channels, at, m.sense[p] * w.belt_torque[p]);
-    double normal = 0, tangential = 0;
+    double normal = 0, tangential = 0, sliding = 0, power = 0;
     for (const ContactSegment& segment : s.state().segments)
       if (segment.pulley == p) {
         normal += sum(w.normal.data() + segment.begin, segment.end - segment.begin);
         tangential -= sum(w.tangential.data() + segment.begin, segment.end - segment.begin);
+        for (int i = segment.begin; m.scene.event && i < segment.end; ++i) {
+          sliding += w.normal[i] * w.slip[i];
+          power -= w.tangential[i] * w.slip[i];
+        }
       }
     put(channels, at, normal);
     put(channels, at, m.sense[p] * tangential);
     put(channels, at, w.hub_x[p]);
     put(channels, at, w.hub_y[p]);
+    if (!m.scene.event) continue;
+    put(channels, at, normal > 0 ? m.sense[p] * sliding / normal : 0.0);
+    put(channels, at, power);
   }
   for (std::size_t i = 0; i < m.springs.size(); ++i) {
     put(channels, at, m.sense[m.springs[i].from] * w.spring_torque[i]);

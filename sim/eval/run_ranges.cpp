@@ -33,7 +33,7 @@ std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::str
 }
 
 std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>& plans, int threads,
-                                  const std::function<void(double)>& progress, bool profile_kernels) {
+                                  const std::function<void(double)>& progress, bool profile_kernels, int frames) {
   std::vector<std::size_t> order(plans.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return plans[a].end_s > plans[b].end_s; });
@@ -44,6 +44,7 @@ std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>
     const std::size_t i = order[static_cast<std::size_t>(k)];
     RunOptions options;
     options.profile_kernels = profile_kernels;
+    options.frames = frames;
     const auto tell = [&, i](double time) {
       const std::lock_guard lock(mutex);
       done[i] = time;

@@ -32,7 +32,7 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
   std::vector<std::int64_t> last;
   for (std::size_t i = 0; i < members.size(); ++i) {
     out[i].record.step_s = h;
-    recorders.push_back(std::make_unique<Recorder>(*members[i].model, *members[i].plan, out[i].record));
+    recorders.push_back(std::make_unique<Recorder>(*members[i].model, *members[i].plan, out[i].record, options.frames));
     last.push_back(std::llround(members[i].plan->end_s / h));
   }
   const std::int64_t end = *std::max_element(last.begin(), last.end());

@@ -9,6 +9,8 @@
 #include <complex>
 #include <numbers>
 
+#include "sim/modes/linear_drive.h"
+
 namespace beltlife {
 namespace {
 

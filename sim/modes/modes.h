@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/modes/linear_drive.h"
+#include "sim/modes/linear_options.h"
+#include "sim/modes/operating_point.h"
 
 namespace beltlife {
 

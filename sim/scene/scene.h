@@ -358,6 +358,22 @@ struct ProfileSpec {
   }
 };
 
+/// A start, an acceleration, a stop: what `simulate` runs instead of the ranges of a scene that has it.
+struct EventSpec {
+  std::vector<double> times_s;
+  std::vector<double> speeds_rpm;
+
+  template <class V>
+  void visit(V& v) {
+    v("times_s", times_s, required(within(0, 1e3)),
+      "increasing from 0, when profile.settle_s and, if the first speed is not 0, profile.ramp_s and profile.hold_s "
+      "are "
+      "over");
+    v("speeds_rpm", speeds_rpm, required(within(0, 1e5)),
+      "mean speed of the driven body at each time, straight between them");
+  }
+};
+
 struct FatigueSpec {
   double rubber_modulus_mpa = 7;
   double cord_to_rib_tip_mm = 3.5;
@@ -434,6 +450,7 @@ struct SceneSpec {
   std::optional<RingSpec> ring;
   std::vector<RangeSpec> range;
   ProfileSpec profile;
+  std::optional<EventSpec> event;
   FatigueSpec fatigue;
   SolverSpec solver;
 
@@ -455,6 +472,7 @@ struct SceneSpec {
     v("ring", ring, any_text, "a belt without pulleys");
     v("range", range, any_text, "operating ranges");
     v("profile", profile, any_text, "timing of a run");
+    v("event", event, any_text, "a start, an acceleration or a stop, run instead of the ranges in one piece");
     v("fatigue", fatigue, any_text, "rib geometry and material");
     v("solver", solver, any_text, "integration and recording");
   }

@@ -44,6 +44,7 @@ class SceneCheck {
     check_tables();
     check_belt();
     check_driver_and_ranges();
+    check_event();
   }
 
  private:
@@ -360,6 +361,27 @@ class SceneCheck {
                            scene_.solver.sample_rate_hz),
                "at least 8 samples");
     }
+  }
+
+  void check_event() {
+    if (!scene_.event) return;
+    const SpecPath path = SpecPath{}.child("event");
+    const SpecPath times = path.child("times_s"), speeds = path.child("speeds_rpm");
+    const auto& t = scene_.event->times_s;
+    if (!scene_.driver && !log_.is_faulty("driver"))
+      complain(path, "an event needs a driver, and there is none", "a table [driver]");
+    if (scene_.driver && scene_.driver->speed_csv)
+      complain(path, "driver.speed_csv is given too", "one of the two: either says how fast the driven body turns");
+    if (log_.is_faulty(times.place)) return;
+    if (t.size() < 2) complain(times, fmt::format("has {} entries", t.size()), "at least two, the first 0");
+    if (!log_.is_faulty(speeds.place) && scene_.event->speeds_rpm.size() != t.size())
+      complain(speeds, fmt::format("has {} entries, times_s has {}", scene_.event->speeds_rpm.size(), t.size()),
+               "lists of one length");
+    if (!t.empty() && t.front() != 0) complain(times, fmt::format("starts at {} s", t.front()), "a first entry of 0");
+    for (std::size_t i = 1; i < t.size(); ++i)
+      if (!(t[i] > t[i - 1]))
+        complain({times.element(i).shown, times.place},
+                 fmt::format("{} does not exceed the entry before, {}", t[i], t[i - 1]), "increasing times");
   }
 
   const SceneSpec& scene_;

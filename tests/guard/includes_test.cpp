@@ -115,6 +115,11 @@ TEST(Includes, OfHdf5StandWhereFilesAreWrittenAndRead) {
 TEST(Includes, OfCeresAndNloptStandInOneFileEach) {
   EXPECT_EQ(includers("ceres/ceres.h"), std::vector<std::string>{"calibrate/fit.cpp"});
   EXPECT_EQ(includers("nlopt.h"), std::vector<std::string>{"optimize/nlopt_search.cpp"});
+  EXPECT_EQ(includers("mpi.h"), std::vector<std::string>{"results/ranks_mpi.cpp"});
+}
+
+TEST(Includes, OfHttplibStandInOneFile) {
+  EXPECT_EQ(includers("httplib.h"), std::vector<std::string>{"results/http_listener.cpp"});
 }
 
 // Heavy headers, and threads and a random generator that belong to the whole program.

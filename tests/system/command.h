@@ -38,14 +38,14 @@ inline Arguments operator+(Arguments a, const Arguments& b) {
   return a;
 }
 
-/// Runs the command without a shell, so that no character of an argument means anything. Standard input is empty.
-inline Answer beltlife(const Arguments& arguments, const fs::path& folder = fs::temp_directory_path(),
-                       double time_out_s = 50) {
+/// Runs a program without a shell, so that no character of an argument means anything. `line` begins with what the
+/// program is to be called. Standard input is empty.
+inline Answer run_program(const std::string& path, const Arguments& line, const fs::path& folder, double time_out_s) {
   Answer answer;
   std::array<int, 2> out{}, err{};
   if (pipe(out.data()) != 0 || pipe(err.data()) != 0) return answer;
-  std::vector<char*> argv{const_cast<char*>("beltlife")};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  std::vector<char*> argv;
+  for (const std::string& argument : line) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 
   const pid_t child = fork();
@@ -53,7 +53,7 @@ inline Answer beltlife(const Arguments& arguments, const fs::path& folder = fs::
     const int empty = open("/dev/null", O_RDONLY);
     if (chdir(folder.c_str()) == 0 && dup2(empty, 0) == 0 && dup2(out[1], 1) == 1 && dup2(err[1], 2) == 2) {
       for (const int pipe_end : {out[0], out[1], err[0], err[1]}) close(pipe_end);
-      execv(BELTLIFE_COMMAND, argv.data());
+      execvp(path.c_str(), argv.data());
     }
     _exit(127);
   }
@@ -83,6 +83,11 @@ inline Answer beltlife(const Arguments& arguments, const fs::path& folder = fs::
   if (child > 0 && waitpid(child, &status, 0) == child && !late)
     answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return answer;
+}
+
+inline Answer beltlife(const Arguments& arguments, const fs::path& folder = fs::temp_directory_path(),
+                       double time_out_s = 50) {
+  return run_program(BELTLIFE_COMMAND, Arguments{"beltlife"} + arguments, folder, time_out_s);
 }
 
 /// A folder of one test's own, which disappears with it.

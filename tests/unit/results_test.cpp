@@ -82,6 +82,13 @@ RunRecord example_run() {
   window.energy[Energy::lost_friction] = 0.1;
   window.element = {
       .time_s = {1, 2}, .normal_n = {0, 90}, .tangential_n = {0, 9}, .tension_n = {700, 800}, .pulley = {-1, 1}};
+  window.frames = {.time_s = {1.9, 2},
+                   .x_m = {0, 1, 1, 0},
+                   .y_m = {0, 0, 1, 1},
+                   .tension_n = {700, 701, 702, 703},
+                   .pulley_angle_rad = {5, 6, 7, 8},
+                   .pulley_x_m = {0, 1, 0, 1},
+                   .pulley_y_m = {0, 0, 0, 0}};
   run.windows = {window, window};
   run.windows[1].range = "C100";
   run.windows[1].complete = false;
@@ -208,7 +215,13 @@ TEST_F(ResultsFile, NamesAndUnitsAreThoseOfTheReadme) {
   std::map<std::string, std::string> written;  // unit by name
   const Life life = example_life();
   const SolvedDrive solved = solve_drive(compile(read_scene(fs::path(BELTLIFE_SCENES) / "accessory_drive.toml").scene));
-  write_results(path, provenance(), {example_run()}, &life, &solved);
+  Sweep sweep;
+  sweep.time_s = sweep.crank_rpm = sweep.orders = {1, 2};
+  sweep.channels = {{"shaft.speed_rpm", "r/min", {{1, 2}, {3, 4}}}};
+  sweep.modes = solved.modes.map;
+  sweep.crossings = solved.modes.crossings;
+  const WindowRecord event;
+  write_results(path, provenance(), {example_run()}, &life, &solved, {&sweep, &event});
   const Reader file(path);
   for (const auto& [object, description] : file.objects()) {
     const auto& [is_dataset, attributes] = description;

@@ -34,7 +34,7 @@ SceneSpec scene_of(const std::string& file) { return read_scene(std::filesystem:
 // ---------------------------------------------------------------- the scenes that we ship
 
 TEST(SceneFiles, AllOfThemReadBackToTheSameBitsWhenWritten) {
-  ASSERT_EQ(scene_files().size(), 10u);
+  ASSERT_EQ(scene_files().size(), 13u);
   for (const auto& path : scene_files()) {
     const SceneFile file = read_scene(path);
     EXPECT_FALSE(file.text.empty());

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "sim/modes/campbell.h"
+#include "sim/modes/linear_drive.h"
 #include "sim/statics/quasi_static.h"
 #include "tests/verification/drives.h"
 
