@@ -23,6 +23,7 @@ $beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml sim/scenes
 for drive in baseline alternative_1 alternative_2 alternative_3; do
   $beltlife report build/demo/results_$drive.h5 --out build/demo/$drive.html --quiet
 done
+$beltlife report build/demo/results_{baseline,alternative_1,alternative_2,alternative_3}.h5 --out build/demo/comparison.html --quiet
 
 cat <<'END'
 
@@ -31,6 +32,7 @@ alternatives, only an ordering: 1 lives shorter than the baseline in every range
 3 longer than the baseline at idle and shorter in the others. Where the table above differs, README.md says why.
 
 A page for each drive, to open in a browser:                 build/demo/baseline.html, alternative_1.html, ...
+All four on one page, side by side:                          build/demo/comparison.html
 Tensions, slip, hub loads, orders and energy of every range: build/demo/details.txt
 Everything as HDF5, a file a drive:                          build/demo/results_*.h5
 END
