@@ -139,7 +139,7 @@ int run(int argc, char** argv, beltlife::Ranks* ranks) {
       "modes", "natural frequencies of every range, rotational and of the spans, and their crossings with orders");
   CLI::App* simulate = app.add_subcommand(
       "simulate",
-      "run the whole profile (or --range, --each-range) and print tensions, slip, hub loads, spectra and energy");
+      "run the profile, single ranges, a run-up or an event; print tensions, slip, hub loads, spectra and energy");
   CLI::App* life =
       app.add_subcommand("life", "run every range alone, in parallel, and print stresses and the life of the belt");
   for (CLI::App* command : {check, modes, simulate, life}) {
@@ -196,7 +196,7 @@ int run(int argc, char** argv, beltlife::Ranks* ranks) {
       "  beltlife life sim/scenes/baseline.toml sim/scenes/alternative_1.toml");
 
   CLI::App* report = app.add_subcommand(
-      "report", "write one self-contained HTML page about a result file or a study, or about several result files");
+      "report", "write one HTML page about a result file or a study, or about several result files side by side");
   report
       ->add_option("files", o.scenes,
                    "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz); several "
@@ -262,9 +262,7 @@ int run(int argc, char** argv, beltlife::Ranks* ranks) {
       "fine.h5\n"
       "A run that is stopped goes on with the same command. Fields of the file: --fields, or calibrate/README.md.");
 
-  CLI::App* optimize = app.add_subcommand(
-      "optimize",
-      "search layouts (pulley places, tensioner, wrap sides) for the longest life, within named clearances");
+  CLI::App* optimize = app.add_subcommand("optimize", "search layouts for the longest life, within named clearances");
   common_flags(*optimize, o, shorthand);
   driver_flags(*optimize, o, true);
   optimize->add_option("study", scene, "search file (TOML)")->required();
