@@ -59,15 +59,6 @@ Cell flag_cell(const std::string& word, const char* good) {
   return word.empty() ? Cell("-") : Cell(word, word != good);
 }
 
-/// Rows of a list that are objects.
-std::vector<json> rows_of(const json& answer, const char* key) {
-  std::vector<json> rows;
-  const json& list = part_of(answer, key);
-  if (list.is_array())
-    std::copy_if(list.begin(), list.end(), std::back_inserter(rows), [](const json& j) { return j.is_object(); });
-  return rows;
-}
-
 /// A chart that stands alone would be as wide as the page.
 std::string single_chart(const std::string& svg) {
   return svg.empty() ? "" : "<div style=\"max-width:600px\">" + svg + "</div>\n";

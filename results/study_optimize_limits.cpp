@@ -121,14 +121,6 @@ Asked asked_of(const StudyHead& head) {
   return asked;
 }
 
-std::vector<json> rows_of(const json& answer, const char* key) {
-  std::vector<json> rows;
-  const json& list = part_of(answer, key);
-  if (list.is_array())
-    std::copy_if(list.begin(), list.end(), std::back_inserter(rows), [](const json& j) { return j.is_object(); });
-  return rows;
-}
-
 const json& found_of(const json& answer) {
   const json& best = part_of(answer, "best");
   return best.is_object() ? best : part_of(answer, "least_violating");

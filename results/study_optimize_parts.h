@@ -29,8 +29,6 @@ struct Asked {
 /// Empty where the study's file cannot be read.
 Asked asked_of(const StudyHead& head);
 
-/// Rows of a list that are objects.
-std::vector<nlohmann::json> rows_of(const nlohmann::json& answer, const char* key);
 /// The design that the page speaks of beside the start: the best, or of a failed search what breaks least.
 const nlohmann::json& found_of(const nlohmann::json& answer);
 std::string number_text(double v, int digits = 5);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "sim/eval/quantity_unit.h"
@@ -17,6 +19,14 @@ const json& part_of(const json& answer, std::string_view key) {
   if (!answer.is_object()) return nothing;
   const auto at = answer.find(std::string(key));
   return at == answer.end() ? nothing : *at;
+}
+
+std::vector<json> rows_of(const json& answer, std::string_view key) {
+  std::vector<json> rows;
+  const json& list = part_of(answer, key);
+  if (list.is_array())
+    std::copy_if(list.begin(), list.end(), std::back_inserter(rows), [](const json& j) { return j.is_object(); });
+  return rows;
 }
 
 double number_in(const json& answer, std::string_view key) {

@@ -39,6 +39,8 @@ Section study_provenance_section(const StudyRecord& record, const std::string& n
 
 /// Reading an answer without a throw: null stands for what is not there (also for NaN and infinity, which JSON lacks).
 const nlohmann::json& part_of(const nlohmann::json& answer, std::string_view key);
+/// Entries of a list that are objects.
+std::vector<nlohmann::json> rows_of(const nlohmann::json& answer, std::string_view key);
 double number_in(const nlohmann::json& answer, std::string_view key);  ///< NaN if there is none
 bool flag_in(const nlohmann::json& answer, std::string_view key);      ///< false if there is none
 std::string text_in(const nlohmann::json& answer, std::string_view key);
