@@ -155,8 +155,8 @@ void explore(SearchLedger& ledger, const SearchOptions& options, const Lease& le
 
 std::string kriging_search(SearchLedger& ledger, const SearchOptions& options) {
   constexpr double first_half_width = 0.4;
-  constexpr double enough = 0.02;  // half width at which a region has shown what it holds
-  constexpr double polish_half_width = 0.05;
+  constexpr double enough = 0.02;             // half width at which a region has shown what it holds
+  constexpr double polish_half_width = 0.05;  // wider than `enough`: the best may lie just outside of what was seen
   const double least = 5 * options.xtol;
   const int polish = options.budget / 4;
   const std::size_t n = ledger.problem().variables, batch = static_cast<std::size_t>(options.batch);
@@ -171,7 +171,7 @@ std::string kriging_search(SearchLedger& ledger, const SearchOptions& options) {
     return ledger.left() < before;
   };
   while (ledger.left() > polish) {
-    if (!begin()) return "no new design of feasible geometry";
+    if (!begin()) break;  // what is left goes to the best known
     if (!any_ok(ledger)) continue;
     explore(ledger, options, {from, first_half_width, std::max(enough, least), polish}, random);
     from = ledger.history().size();

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <tuple>
 
 #include "results/ranks.h"
 #include "sim/scene/scene_io.h"
@@ -109,7 +109,6 @@ class MpiRanks : public Ranks {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
     share_ = processor_share();
-    busy_.assign(static_cast<std::size_t>(count_), false);
   }
 
   ~MpiRanks() override {
@@ -167,7 +166,8 @@ class MpiRanks : public Ranks {
                                const OnAnswer& on_answer) {
     std::vector<Answer> answers(points.size());
     std::mutex mutex;  // of everything below that the local thread uses too
-    std::size_t next = 0;
+    std::size_t next = 0, handed_on = 0;
+    std::vector<bool> busy(static_cast<std::size_t>(count_), false);  // helpers that have points
     const std::size_t chunk = chunk_size(points.size(), count_, threads);
     std::exception_ptr failure;
     const auto take = [&]() -> std::pair<std::size_t, std::size_t> {
@@ -180,7 +180,7 @@ class MpiRanks : public Ranks {
     const auto hand_on = [&](std::size_t index, Answer a) {
       const std::lock_guard lock(mutex);
       answers[index] = std::move(a);
-      ++handed_on_;
+      ++handed_on;
       if (on_answer) on_answer(index, answers[index]);
     };
     const auto fail = [&] {
@@ -188,7 +188,6 @@ class MpiRanks : public Ranks {
       if (!failure) failure = std::current_exception();
     };
 
-    handed_on_ = 0;
     bool local_done = false;
     std::thread own([&] {
       try {
@@ -205,14 +204,14 @@ class MpiRanks : public Ranks {
     std::vector<std::size_t> first(static_cast<std::size_t>(count_), 0);  // of each helper's points
     const auto employ = [&](int helper) {
       const auto [begin, end] = take();
-      busy_[static_cast<std::size_t>(helper)] = begin < end;
+      busy[static_cast<std::size_t>(helper)] = begin < end;
       first[static_cast<std::size_t>(helper)] = begin;
       if (begin < end) send(helper, work, packed(packed_points(points, begin, end)));
     };
     for (int helper = 1; helper < count_; ++helper) employ(helper);
     const auto finished = [&] {
       const std::lock_guard lock(mutex);
-      return local_done && std::find(busy_.begin(), busy_.end(), true) == busy_.end();
+      return local_done && std::find(busy.begin(), busy.end(), true) == busy.end();
     };
     for (Message message; !finished();) {
       if (!receive(message)) {
@@ -227,7 +226,7 @@ class MpiRanks : public Ranks {
           const auto content = nlohmann::json::from_cbor(message.content);
           hand_on(first[from] + content[0].get<std::size_t>(), answer_in(content));
         } else if (message.tag == declined) {
-          busy_[from] = false;
+          busy[from] = false;
           throw BadInput({Problem{"mpirun", 0, "", std::string(message.content.begin(), message.content.end()), ""}});
         }
       } catch (...) {
@@ -236,14 +235,12 @@ class MpiRanks : public Ranks {
     }
     own.join();
     if (failure) std::rethrow_exception(failure);
-    if (handed_on_ < points.size()) throw Interrupted();
+    if (handed_on < points.size()) throw Interrupted();
     return answers;
   }
 
   int rank_ = 0, count_ = 1, share_ = 1;
-  bool ended_ = false;         ///< of a helper
-  std::vector<bool> busy_;     ///< of the lead: helpers that have points
-  std::size_t handed_on_ = 0;  ///< answers of the batch under way
+  bool ended_ = false;  ///< of a helper
 };
 
 }  // namespace
