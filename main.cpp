@@ -9,12 +9,15 @@
 #include <memory>
 
 #include "calibrate/commands.h"
+#include "calibrate/pages/calibrate_page.h"
 #include "calibrate/twin.h"
 #include "optimize/commands.h"
-#include "results/commands.h"
-#include "results/ranks.h"
+#include "optimize/pages/optimize_page.h"
+#include "results/commands/commands.h"
+#include "results/journal/ranks.h"
 #include "sim/scene/scene_io.h"
 #include "studies/commands.h"
+#include "studies/pages.h"
 
 namespace {
 
@@ -351,7 +354,12 @@ int run(int argc, char** argv, beltlife::Ranks* ranks) {
   if (*modes) return beltlife::run_modes(o);
   if (*simulate) return beltlife::run_simulate(o);
   if (*life) return beltlife::run_life(o);
-  if (*report) return beltlife::run_report(o);
+  if (*report) {
+    std::vector<beltlife::StudyPage> pages(beltlife::study_pages().begin(), beltlife::study_pages().end());
+    pages.push_back(beltlife::calibrate_page());
+    pages.push_back(beltlife::optimize_page());
+    return beltlife::run_report(o, pages);
+  }
   if (*export_) return beltlife::run_export(o);
   if (*optimize) return beltlife::run_optimize(o);
   if (*twin) return beltlife::run_twin(o);

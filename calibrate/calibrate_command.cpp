@@ -1,7 +1,7 @@
 // The command calibrate: see commands.h.
 #include "calibrate/calibration.h"
 #include "calibrate/commands.h"
-#include "results/run_driver.h"
+#include "results/course/run_driver.h"
 
 namespace beltlife {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "results/file_checksum.h"
+#include "results/journal/file_checksum.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {

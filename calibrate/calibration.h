@@ -3,7 +3,7 @@
 
 #include "calibrate/calibration_spec.h"
 #include "calibrate/fit_model.h"
-#include "results/study_run.h"
+#include "results/course/study_run.h"
 
 namespace beltlife {
 

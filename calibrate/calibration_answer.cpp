@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/print.h"
+#include "results/text/print.h"
 
 namespace beltlife {
 namespace {

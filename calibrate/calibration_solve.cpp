@@ -7,8 +7,8 @@
 #include "calibrate/calibration.h"
 #include "calibrate/calibration_answer.h"
 #include "calibrate/pictures.h"
-#include "results/print.h"
-#include "results/table.h"
+#include "results/text/print.h"
+#include "results/text/table.h"
 #include "sim/eval/quantity_unit.h"
 
 namespace beltlife {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/measurement.h"
+#include "calibrate/records/measurement.h"
 #include "sim/eval/problem_spec.h"
 
 namespace beltlife {

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "calibrate/measurement.h"
-#include "results/study_run.h"
+#include "calibrate/records/measurement.h"
+#include "results/course/study_run.h"
 
 namespace beltlife {
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <random>
 
-#include "results/loaded_scene.h"
-#include "results/scene_runs.h"
-#include "results/whole_file.h"
+#include "results/commands/scene_runs.h"
+#include "results/course/loaded_scene.h"
+#include "results/store/whole_file.h"
 
 namespace beltlife {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "results/commands.h"
+#include "results/commands/commands.h"
 #include "sim/eval/study_input.h"
 
 namespace beltlife {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "results/commands.h"
+#include "results/commands/commands.h"
 
 namespace beltlife {
 

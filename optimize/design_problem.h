@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "optimize/layout_limits.h"
+#include "optimize/layout/layout_limits.h"
 #include "optimize/optimization_spec.h"
-#include "optimize/search_problem.h"
-#include "results/study_run.h"
+#include "optimize/search/search_problem.h"
+#include "results/course/study_run.h"
 
 namespace beltlife {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "optimize/design_problem.h"
-#include "results/study_run.h"
+#include "results/course/study_run.h"
 
 namespace beltlife {
 

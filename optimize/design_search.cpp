@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "optimize/feasible_design.h"
+#include "optimize/search/feasible_design.h"
 
 namespace beltlife {
 

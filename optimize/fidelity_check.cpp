@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "optimize/feasible_design.h"
+#include "optimize/search/feasible_design.h"
 
 namespace beltlife {
 namespace {

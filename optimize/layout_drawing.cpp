@@ -1,6 +1,6 @@
 // The loop of a design for a drawing: see layout_answer.h.
+#include "optimize/layout/placed_layout.h"
 #include "optimize/layout_answer.h"
-#include "optimize/placed_layout.h"
 #include "sim/route/layout.h"
 
 namespace beltlife {

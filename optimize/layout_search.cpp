@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "optimize/design_problem.h"
-#include "optimize/layout_base.h"
+#include "optimize/layout/layout_base.h"
 #include "optimize/layout_search_check.h"
 
 namespace beltlife {

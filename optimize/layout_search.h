@@ -2,7 +2,7 @@
 #pragma once
 
 #include "optimize/optimization_spec.h"
-#include "results/study_run.h"
+#include "results/course/study_run.h"
 
 namespace beltlife {
 

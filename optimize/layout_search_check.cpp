@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "optimize/layout_limits.h"
+#include "optimize/layout/layout_limits.h"
 
 namespace beltlife {
 namespace {

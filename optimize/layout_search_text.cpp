@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "optimize/layout_search.h"
-#include "results/table.h"
+#include "results/text/table.h"
 #include "sim/eval/quantity_unit.h"
 
 namespace beltlife {

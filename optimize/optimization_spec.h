@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "optimize/layout_spec.h"
-#include "optimize/search.h"
+#include "optimize/layout/layout_spec.h"
+#include "optimize/search/search.h"
 #include "sim/eval/problem_spec.h"
 
 namespace beltlife {

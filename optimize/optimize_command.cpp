@@ -1,7 +1,7 @@
 // The command optimize: see commands.h.
 #include "optimize/commands.h"
 #include "optimize/layout_search.h"
-#include "results/run_driver.h"
+#include "results/course/run_driver.h"
 
 namespace beltlife {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "optimize/search_design.h"
+#include "optimize/search/search_design.h"
 
 namespace beltlife {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sim/divergence.h"
 #include "sim/lanes/run_pack.h"
-#include "sim/recorder.h"
+#include "sim/observe/recorder.h"
 
 namespace beltlife {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results/commands.h"
+#include "results/commands/commands.h"
 
 namespace beltlife {
 

@@ -1,7 +1,7 @@
 // Owns a kind of study as a driver: its settings are the table [study] of its file.
 #pragma once
 
-#include "results/run_driver.h"
+#include "results/course/run_driver.h"
 
 namespace beltlife {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "results/print.h"
+#include "results/text/print.h"
 #include "sim/eval/quantity_unit.h"
 
 namespace beltlife {

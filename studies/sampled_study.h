@@ -1,8 +1,8 @@
 // Owns what the kinds of study that sample their parameters share: their checks, their columns, values by quantity.
 #pragma once
 
-#include "results/study_run.h"
-#include "studies/openturns_inputs.h"
+#include "results/course/study_run.h"
+#include "studies/openturns/openturns_inputs.h"
 
 namespace beltlife {
 

@@ -2,15 +2,15 @@
 #include <algorithm>
 
 #include "studies/commands.h"
-#include "studies/convergence_study.h"
-#include "studies/morris_study.h"
-#include "studies/noise_study.h"
-#include "studies/oat_study.h"
+#include "studies/convergence/convergence_study.h"
+#include "studies/morris/morris_study.h"
+#include "studies/noise/noise_study.h"
+#include "studies/oat/oat_study.h"
 #include "studies/run_kind.h"
-#include "studies/sobol_study.h"
-#include "studies/stability_study.h"
-#include "studies/surrogate_study.h"
-#include "studies/uncertainty_study.h"
+#include "studies/sobol/sobol_study.h"
+#include "studies/stability/stability_study.h"
+#include "studies/surrogate/surrogate_study.h"
+#include "studies/uncertainty/uncertainty_study.h"
 
 namespace beltlife {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "sim/divergence.h"
-#include "sim/recorder.h"
+#include "sim/observe/recorder.h"
 
 namespace beltlife {
 namespace {

@@ -1,6 +1,7 @@
 // Owns the way from effective to pitch values (ISO 9981): pulley diameters and belt length along the belt's cord.
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 
@@ -22,6 +23,12 @@ inline std::optional<double> unstretched_length_mm(const BeltSpec& belt) {
   const double pitch =
       *belt.effective_length_mm + 2 * std::numbers::pi * belt.effective_line_differential_mm.value_or(0);
   return pitch / (1 + belt.measuring_tension_n.value_or(0) / belt.axial_stiffness_n);
+}
+
+/// Whether any pulley is stated by its effective diameter, so that tables show both.
+inline bool has_effective_diameters(const SceneSpec& scene) {
+  return std::any_of(scene.pulley.begin(), scene.pulley.end(),
+                     [](const PulleySpec& p) { return p.effective_diameter_mm.has_value(); });
 }
 
 }  // namespace beltlife

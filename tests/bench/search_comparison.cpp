@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "optimize/search.h"
+#include "optimize/search/search.h"
 #include "tests/unit/search_problems.h"
 
 namespace {

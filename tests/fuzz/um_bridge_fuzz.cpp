@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "results/um_bridge.h"
+#include "results/server/um_bridge.h"
 
 using namespace beltlife;
 

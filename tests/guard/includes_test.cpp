@@ -1,4 +1,4 @@
-// Owns the arrows between folders: simulator <- results <- drivers <- main, read off the #include lines.
+// Owns the arrows between rooms: which may include which, no way up and no circle, read off the #include lines.
 #include <gtest/gtest.h>
 
 #include "tests/guard/source_tree.h"
@@ -36,7 +36,7 @@ bool in_any(const std::string& path, const std::vector<std::string>& folders) {
 // The simulator's core takes a Spec and gives numbers: no file format, no command line.
 bool is_core(const std::string& file) {
   return in(file, "sim") &&
-         (file.find('/', 4) == file.npos || in_any(file, {"sim/kernels", "sim/schemes", "sim/route", "sim/signal"}));
+         (file.find('/', 4) == file.npos || in_any(file, {"sim/kernels", "sim/schemes", "sim/route", "sim/signal", "sim/observe"}));
 }
 
 const std::vector<std::string> drivers{"calibrate", "studies", "optimize"};
@@ -88,10 +88,49 @@ TEST(Includes, OfTheCoreNeverReachEvaluation) {
     }
 }
 
-TEST(Includes, OfResultsNeverReachDrivers) {
+// Rooms from the bottom up: a file includes files of its own room and of rooms on floors below. Rooms that share a floor
+// know nothing of each other. A room of its own floor is the longest of these names that begins a path.
+const std::vector<std::vector<std::string>> floors{
+    {"sim"},
+    {"results/text", "results/answer"},
+    {"results/journal"},
+    {"results/store"},
+    {"results/pages"},
+    {"results/pages/run", "results/pages/study"},
+    {"results/course"},
+    {"optimize/search"},
+    {"optimize/layout"},
+    {"calibrate", "studies", "optimize"},
+    {"results/commands", "results/server"},
+    {"main.cpp"},
+};
+
+struct Place {
+  std::string room;
+  std::size_t floor = 0;
+};
+
+Place place_of(const std::string& file) {
+  Place found;
+  for (std::size_t floor = 0; floor < floors.size(); ++floor)
+    for (const std::string& room : floors[floor])
+      if ((file == room || in(file, room)) && room.size() > found.room.size()) found = {room, floor};
+  return found;
+}
+
+TEST(Includes, LeadDownwardsFromRoomToRoom) {
+  for (const Include& i : includes()) {
+    const Place from = place_of(i.file), to = place_of(i.header);
+    EXPECT_FALSE(from.room.empty()) << i.file << " stands in no room";
+    if (to.room.empty() || from.room == to.room) continue;  // a header of the system, or of the same room
+    EXPECT_GT(from.floor, to.floor) << i.file << " includes " << i.header;
+  }
+}
+
+TEST(Includes, OfASearchKnowNothingOfBelts) {
   for (const Include& i : includes())
-    if (in(i.file, "results")) {
-      EXPECT_FALSE(in_any(i.header, drivers)) << i.file << " includes " << i.header;
+    if (in(i.file, "optimize/search")) {
+      EXPECT_TRUE(!in(i.header, "sim") || i.header == "sim/scene/field.h") << i.file << " includes " << i.header;
     }
 }
 
@@ -109,25 +148,26 @@ TEST(Includes, OfTomlStandInOneFile) {
 }
 
 TEST(Includes, OfHdf5StandWhereFilesAreWrittenAndRead) {
-  EXPECT_EQ(includers("hdf5.h"), (std::vector<std::string>{"results/hdf5_image.cpp", "results/hdf5_source.cpp"}));
+  EXPECT_EQ(includers("hdf5.h"),
+            (std::vector<std::string>{"results/store/hdf5_image.cpp", "results/store/hdf5_source.cpp"}));
 }
 
 TEST(Includes, OfCeresAndNloptStandInOneFileEach) {
   EXPECT_EQ(includers("ceres/ceres.h"), std::vector<std::string>{"calibrate/fit.cpp"});
-  EXPECT_EQ(includers("nlopt.h"), std::vector<std::string>{"optimize/nlopt_search.cpp"});
-  EXPECT_EQ(includers("mpi.h"), std::vector<std::string>{"results/ranks_mpi.cpp"});
+  EXPECT_EQ(includers("nlopt.h"), std::vector<std::string>{"optimize/search/nlopt_search.cpp"});
+  EXPECT_EQ(includers("mpi.h"), std::vector<std::string>{"results/journal/ranks_mpi.cpp"});
 }
 
 TEST(Includes, OfHttplibStandInOneFile) {
-  EXPECT_EQ(includers("httplib.h"), std::vector<std::string>{"results/http_listener.cpp"});
+  EXPECT_EQ(includers("httplib.h"), std::vector<std::string>{"results/server/http_listener.cpp"});
 }
 
 // Heavy headers, and threads and a random generator that belong to the whole program.
 TEST(Includes, OfOpenTurnsStandInFilesNamedAfterIt) {
   for (const Include& i : includes())
-    if (in(i.header, "openturns") || i.header == "studies/openturns_margins.h") {
-      EXPECT_TRUE(i.file.starts_with("studies/openturns_")) << i.file << " includes " << i.header;
-      EXPECT_TRUE(!i.file.ends_with(".h") || i.file == "studies/openturns_margins.h") << i.file;
+    if (in(i.header, "openturns") || i.header == "studies/openturns/openturns_margins.h") {
+      EXPECT_TRUE(i.file.starts_with("studies/openturns/")) << i.file << " includes " << i.header;
+      EXPECT_TRUE(!i.file.ends_with(".h") || i.file == "studies/openturns/openturns_margins.h") << i.file;
     }
   EXPECT_FALSE(includers("openturns/Distribution.hxx").empty());
 }

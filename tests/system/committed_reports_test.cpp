@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "results/study_file.h"
+#include "results/store/study_file.h"
 #include "sim/scene/toml_tree.h"
 #include "tests/system/command.h"
 

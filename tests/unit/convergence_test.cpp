@@ -1,6 +1,6 @@
 // Error against run time: measures by group, the reference and its band, observed orders, on made-up runs with known
 // ones.
-#include "studies/convergence.h"
+#include "studies/convergence/convergence.h"
 
 #include <gtest/gtest.h>
 

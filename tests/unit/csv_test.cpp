@@ -1,5 +1,5 @@
 // Owns the tests of CSV text: quoting by RFC 4180, numbers back to the bit, columns as lines.
-#include "results/csv.h"
+#include "results/text/csv.h"
 
 #include <gtest/gtest.h>
 

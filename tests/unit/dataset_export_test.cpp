@@ -1,5 +1,5 @@
 // Owns the tests of the way from HDF5 datasets to a list and to CSV.
-#include "results/dataset_export.h"
+#include "results/store/dataset_export.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "results/hdf5_image.h"
-#include "results/whole_file.h"
+#include "results/store/hdf5_image.h"
+#include "results/store/whole_file.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {

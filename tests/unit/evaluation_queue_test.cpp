@@ -1,6 +1,6 @@
 // Owns the claims about the waiting line before a model: who waits together runs together, and nobody waits for
 // nothing.
-#include "results/evaluation_queue.h"
+#include "results/server/evaluation_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include <numbers>
 
-#include "results/result_reader.h"
+#include "results/store/result_reader.h"
 #include "sim/eval/sweep.h"
-#include "sim/sensors.h"
+#include "sim/observe/sensors.h"
 #include "tests/unit/scene_fixture.h"
 
 namespace beltlife {

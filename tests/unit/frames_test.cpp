@@ -8,8 +8,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "results/frames_group.h"
-#include "results/result_reader.h"
+#include "results/store/frames_group.h"
+#include "results/store/result_reader.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/lanes/run_pack.h"
 #include "sim/scene/scene_io.h"

@@ -1,5 +1,5 @@
 // Owns the claims about the log of a study: nothing lost by a kill, nothing evaluated twice, damage named in words.
-#include "results/journal.h"
+#include "results/journal/journal.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

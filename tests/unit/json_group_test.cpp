@@ -1,5 +1,5 @@
 // Owns the claim that any JSON survives in an HDF5 file, and the spelling of units in names.
-#include "results/json_group.h"
+#include "results/store/json_group.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "results/whole_file.h"
+#include "results/store/whole_file.h"
 #include "sim/eval/quantity_unit.h"
 #include "tests/unit/study_fixture.h"
 

@@ -1,13 +1,13 @@
 // Owns the claims about the Gaussian process: it interpolates, knows what it does not know, and finds lengths and
 // noise.
-#include "optimize/kriging.h"
+#include "optimize/search/kriging.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "optimize/search_design.h"
+#include "optimize/search/search_design.h"
 
 namespace beltlife {
 namespace {

@@ -1,5 +1,5 @@
 // Owns the tests of the table [layout] as it is read and checked against a scene.
-#include "optimize/layout_limits.h"
+#include "optimize/layout/layout_limits.h"
 #include "tests/unit/scene_fixture.h"
 
 namespace beltlife {

@@ -1,5 +1,5 @@
 // Owns the tests of a layout's limits: known distances, one fixed list for all layouts, agreement with solve_statics().
-#include "optimize/layout_limits.h"
+#include "optimize/layout/layout_limits.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-#include "optimize/layout_base.h"
+#include "optimize/layout/layout_base.h"
 #include "sim/modes/modes.h"
 #include "sim/scene/scene_io.h"
 #include "sim/statics/quasi_static.h"

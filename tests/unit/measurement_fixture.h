@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "calibrate/measurement.h"
+#include "calibrate/records/measurement.h"
 
 namespace beltlife::measurement_test {
 

@@ -1,7 +1,7 @@
 // Owns the tests of measurements: known signals come back from CSV files, whatever their rate, unit and form.
-#include "calibrate/measurement.h"
+#include "calibrate/records/measurement.h"
 
-#include "calibrate/record_reduction.h"
+#include "calibrate/records/record_reduction.h"
 #include "sim/eval/quantities.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/schemes/scheme.h"

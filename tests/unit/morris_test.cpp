@@ -1,9 +1,9 @@
 // Owns the claims about elementary effects: exact for linear functions, honest about failures and noise.
 #include <set>
 
-#include "results/study_file.h"
-#include "studies/elementary_effects.h"
-#include "studies/morris_study.h"
+#include "results/store/study_file.h"
+#include "studies/morris/elementary_effects.h"
+#include "studies/morris/morris_study.h"
 #include "tests/unit/sampled_fixture.h"
 
 namespace beltlife::study_test {

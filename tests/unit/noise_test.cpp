@@ -1,5 +1,5 @@
 // Owns the claims about the measurement of noise: planted noise found, planted responses told apart, none invented.
-#include "studies/noise.h"
+#include "studies/noise/noise.h"
 
 #include <gtest/gtest.h>
 

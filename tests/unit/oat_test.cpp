@@ -1,5 +1,5 @@
 // One change at a time: what is noise, what is slight, what can be seen.
-#include "studies/oat.h"
+#include "studies/oat/oat.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "optimize/design_problem.h"
 #include "optimize/fidelity_check.h"
 #include "optimize/finalists.h"
-#include "optimize/layout_base.h"
+#include "optimize/layout/layout_base.h"
 #include "optimize/layout_search.h"
 #include "optimize/pareto.h"
 #include "optimize/scatter_draws.h"

@@ -1,5 +1,5 @@
 // Owns the claims about how many points a process is handed at once.
-#include "results/ranks.h"
+#include "results/journal/ranks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // The running belt on a report page: what the player gets is what was recorded, and a page without frames has none.
-#include "results/report_animation.h"
+#include "results/pages/run/report_animation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "results/report.h"
+#include "results/pages/run/report.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/scene/scene_io.h"
 

@@ -1,5 +1,5 @@
 // Owns the tests of the page that compares result files, and of the comparison of scenes in it.
-#include "results/report_compare.h"
+#include "results/pages/run/report_compare.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <regex>
 
-#include "results/report_compare_parts.h"
-#include "results/scene_differences.h"
+#include "results/pages/run/report_compare_parts.h"
+#include "results/pages/run/scene_differences.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/scene/scene_io.h"
 

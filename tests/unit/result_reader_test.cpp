@@ -1,5 +1,5 @@
 // Owns the claim that a result file gives back what was written.
-#include "results/result_reader.h"
+#include "results/store/result_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "results/results_file.h"
-#include "results/whole_file.h"
+#include "results/store/results_file.h"
+#include "results/store/whole_file.h"
 #include "sim/scene/scene_io.h"
 #include "tests/documented_names.h"
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <span>
 
-#include "results/study_run.h"
-#include "studies/openturns_inputs.h"
+#include "results/course/study_run.h"
+#include "studies/openturns/openturns_inputs.h"
 #include "tests/unit/study_fixture.h"
 
 namespace beltlife::study_test {

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "optimize/search_design.h"
+#include "optimize/search/search_design.h"
 
 namespace beltlife::search_test {
 

@@ -1,11 +1,11 @@
 // Owns the claims about searches: they find known optima, keep to budget and cube, survive trouble and repeat exactly.
-#include "optimize/search.h"
+#include "optimize/search/search.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "optimize/nlopt_search.h"
+#include "optimize/search/nlopt_search.h"
 #include "tests/unit/search_problems.h"
 
 namespace beltlife::search_test {

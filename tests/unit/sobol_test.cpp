@@ -1,8 +1,8 @@
 // Owns the claims about Sobol' indices: known answers, honest intervals, no bias by failures, the same on every run.
-#include "results/study_file.h"
+#include "results/store/study_file.h"
 #include "studies/commands.h"
-#include "studies/sobol_indices.h"
-#include "studies/sobol_study.h"
+#include "studies/sobol/sobol_indices.h"
+#include "studies/sobol/sobol_study.h"
 #include "tests/unit/sampled_fixture.h"
 
 namespace beltlife::study_test {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "optimize/layout_base.h"
+#include "optimize/layout/layout_base.h"
 #include "sim/model.h"
 #include "sim/scene/pulley_place.h"
 #include "sim/statics/quasi_static.h"

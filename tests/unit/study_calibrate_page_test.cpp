@@ -1,7 +1,7 @@
 // Owns the claims about the page of a calibration: its numbers and warnings, and that odd answers do not break it.
 #include <cmath>
 
-#include "results/study_calibrate_charts.h"
+#include "calibrate/pages/calibrate_charts.h"
 #include "tests/unit/study_page_fixture.h"
 
 namespace beltlife::study_test {
@@ -122,7 +122,7 @@ StudyRecord calibration() {
 }
 
 TEST(StudyCalibratePage, HasValuesIntervalsPicturesResidualsAndFits) {
-  const std::string page = study_html(calibration(), "c.jsonl");
+  const std::string page = page_of_study(calibration(), "c.jsonl");
   expect_sound(page);
   expect_ids(page, {"parameters",
                     "study-parameters",
@@ -176,7 +176,7 @@ TEST(StudyCalibratePage, HasValuesIntervalsPicturesResidualsAndFits) {
 }
 
 TEST(StudyCalibratePage, SetsOffWhatIsNotToBeTrusted) {
-  const std::string page = study_html(calibration(), "c.jsonl");
+  const std::string page = page_of_study(calibration(), "c.jsonl");
   expect_words(
       page, {"class=\"alarm\">confounded<", "class=\"alarm\">upper<", "class=\"alarm\">-4.71<", ">+1.75<",
              "class=\"alarm\" style=\"background:rgba(230,159,0,0.48)\">-0.95<", "<strong>1 of 2</strong> amplitudes",
@@ -187,10 +187,10 @@ TEST(StudyCalibratePage, SetsOffWhatIsNotToBeTrusted) {
 TEST(StudyCalibratePage, BeginsWithTheRemarkThatItHasNotConverged) {
   StudyRecord r = calibration();
   r.answer["converged"] = false;
-  std::string page = study_html(r, "c");
+  std::string page = page_of_study(r, "c");
   expect_words(page, {"<strong class=\"alarm\">The fit has not converged.</strong>"});
   r.answer["remarks"].push_back("Not converged: the minimum is far.");
-  page = study_html(r, "c");
+  page = page_of_study(r, "c");
   expect_sound(page);
   expect_words(page, {"<p class=\"lead\"><strong class=\"alarm\">Not converged: the minimum is far.</strong>"});
   EXPECT_EQ(page.find("The fit has"), page.npos) << "said once";
@@ -202,7 +202,7 @@ TEST(StudyCalibratePage, OfSingleNumbersHasNoPicturesNorMainFrequencies) {
   r.answer.erase("pictures");
   r.answer["residuals"] = {residual("y1", 2, 2.1, 0.5)};
   r.answer["residuals"][0]["logarithm"] = false;
-  const std::string page = study_html(r, "c");
+  const std::string page = page_of_study(r, "c");
   expect_sound(page);
   for (const char* id : {"main", "pictures", "spectrum-0", "residuals-by-order"}) EXPECT_FALSE(has_id(page, id)) << id;
   expect_words(page, {">y1<", ">0.02<"});
@@ -211,12 +211,12 @@ TEST(StudyCalibratePage, OfSingleNumbersHasNoPicturesNorMainFrequencies) {
 TEST(StudyCalibratePage, OfAStudyThatHasNotEndedOrHasNoFitSaysSo) {
   StudyRecord r = calibration();
   r.answer = nullptr;
-  std::string page = study_html(r, "c");
+  std::string page = page_of_study(r, "c");
   expect_sound(page);
   expect_words(page, {"This study has not ended."});
   EXPECT_FALSE(has_id(page, "parameters"));
   r.answer = {{"error", "no fit: every <step> failed"}, {"converged", false}};
-  page = study_html(r, "c");
+  page = page_of_study(r, "c");
   expect_sound(page);
   expect_words(page, {"There is no answer: no fit: every &lt;step&gt; failed"});
   EXPECT_EQ(page.find("converged"), page.npos);
@@ -246,20 +246,20 @@ TEST(StudyCalibratePage, SurvivesMissingPartsAndAnswersOfAnotherShape) {
     int k = 0;
     for (const auto& [key, value] : whole.answer.items())
       if (k++ % 3 == part) r.answer.erase(key);
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
   }
   for (std::size_t first = 0; first < 7; ++first) {
     std::size_t count = 0;
     r.answer = whole.answer;
     spoil(r.answer, count, first);
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
   }
   for (const json& odd : {json::object(), json(7), json("<text>"), json(json::array({1, "a", nullptr}))}) {
     r.answer = odd;
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
     r.answer = json::object();
     for (const auto& [key, value] : whole.answer.items()) r.answer[key] = odd;
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
   }
 }
 

@@ -144,7 +144,7 @@ StudyRecord uncertainty() {
 }
 
 TEST(StudyDriverPage, OfOneAtATimeHasVerdictsEffectsAndTornados) {
-  const std::string page = study_html(oat(), "o.jsonl");
+  const std::string page = page_of_study(oat(), "o.jsonl");
   expect_sound(page);
   expect_ids(
       page, {"summary", "variants", "study-variants", "changes-0", "study-verdicts-0", "study-effects-0", "tornado-0-0",
@@ -163,14 +163,14 @@ TEST(StudyDriverPage, OfOneAtATimeWithNothingSaidHasNoColumnForIt) {
   for (json& row : r.answer["variants"][0]["changes"])
     for (const char* key : {"says_magnitude", "agrees_magnitude"}) row.erase(key);
   r.answer["variants"][0]["said"] = 0;
-  const std::string page = study_html(r, "o");
+  const std::string page = page_of_study(r, "o");
   expect_sound(page);
   EXPECT_EQ(page.find("agree"), page.npos);
   EXPECT_FALSE(has_id(page, "variants"));
 }
 
 TEST(StudyDriverPage, OfElementaryEffectsHasTablesAndPlanes) {
-  const std::string page = study_html(morris(), "m.jsonl");
+  const std::string page = page_of_study(morris(), "m.jsonl");
   expect_sound(page);
   expect_ids(page, {"effects", "plane-0", "study-effects-0", "study-effects-1", "points", "provenance"});
   expect_words(page, {"To B1.a_n_m <strong>belt.&lt;b&gt;</strong> matters most: &mu;* = 3.12 N m", "μ*, N m",
@@ -179,7 +179,7 @@ TEST(StudyDriverPage, OfElementaryEffectsHasTablesAndPlanes) {
 }
 
 TEST(StudyDriverPage, OfSobolHasSharesWithIntervalsAndSaysWhetherTheyConverged) {
-  const std::string page = study_html(sobol(), "s.jsonl");
+  const std::string page = page_of_study(sobol(), "s.jsonl");
   expect_sound(page);
   expect_ids(page, {"shares", "shares-0", "study-shares-0", "points"});
   expect_words(page, {"<strong>71 %</strong> goes with <strong>belt.friction_front</strong>", "It has not converged",
@@ -189,23 +189,23 @@ TEST(StudyDriverPage, OfSobolHasSharesWithIntervalsAndSaysWhetherTheyConverged) 
   EXPECT_FALSE(has_id(page, "shares-1"));
   StudyRecord r = sobol();
   r.answer["quantities"]["B1.a_n_m"]["converged"] = true;
-  expect_words(study_html(r, "s"), {"It has converged.", "Converged: the widest"});
+  expect_words(page_of_study(r, "s"), {"It has converged.", "Converged: the widest"});
 }
 
 TEST(StudyDriverPage, OfASurrogateWarnsOfOneThatForetellsBadly) {
   StudyRecord r = surrogate();
-  const std::string page = study_html(r, "g.jsonl");
+  const std::string page = page_of_study(r, "g.jsonl");
   expect_sound(page);
   expect_ids(page, {"surrogate", "study-surrogate", "shares", "shares-0", "study-shares-0"});
   expect_words(page,
                {"class=\"alarm\">0.8125<", "one quantity foretells less than 90 %", ">0.375<", ">2.25<", "chaos"});
   EXPECT_EQ(page.find(">interval<"), page.npos);
   r.answer["quantities"]["B1.a_n_m"]["q2"] = 0.97;
-  expect_words(study_html(r, "g"), {"foretells at least 90 %"});
+  expect_words(page_of_study(r, "g"), {"foretells at least 90 %"});
 }
 
 TEST(StudyDriverPage, OfUncertaintyHasDistributionsPercentilesAndTheTarget) {
-  const std::string page = study_html(uncertainty(), "u.jsonl");
+  const std::string page = page_of_study(uncertainty(), "u.jsonl");
   expect_sound(page);
   expect_ids(page, {"scatter", "histogram-0", "exceedance-0", "histogram-1", "exceedance-1", "study-percentiles-0",
                     "study-percentiles-1", "points", "failures"});
@@ -242,36 +242,36 @@ TEST(StudyDriverPage, SurvivesMissingKeysZerosAndAnswersOfAnotherShape) {
       std::size_t count = 0;
       r.answer = whole.answer;
       spoil(r.answer, count, first);
-      expect_sound(study_html(r, "x"));
+      expect_sound(page_of_study(r, "x"));
       r.points.clear();
     }
     for (const json& odd : {json::object(), json(7), json("text"), json(json::array({1, "a", nullptr}))}) {
       r.answer = odd;
-      expect_sound(study_html(r, "x"));
+      expect_sound(page_of_study(r, "x"));
       r.answer = {{"quantities", odd}, {"variants", odd}, {"parameters", odd}};
-      expect_sound(study_html(r, "x"));
+      expect_sound(page_of_study(r, "x"));
       r.answer = {{"quantities", {{r.head.quantities[0], odd}}}, {"variants", {{{"changes", odd}}, odd}}};
-      expect_sound(study_html(r, "x"));
+      expect_sound(page_of_study(r, "x"));
     }
     r.answer = {{"error", "only 1 of 9 points are <ok>"}};
-    expect_words(study_html(r, "x"), {"There is no answer: only 1 of 9 points are &lt;ok&gt;"});
+    expect_words(page_of_study(r, "x"), {"There is no answer: only 1 of 9 points are &lt;ok&gt;"});
   }
 }
 
 TEST(StudyDriverPage, OfZerosAndASinglePointHasNoEmptyCharts) {
   StudyRecord r = morris();
   for (auto& [name, e] : r.answer["quantities"]["B1.a_n_m"].items()) e["mu_star"] = e["sigma"] = 0;
-  expect_sound(study_html(r, "m"));
+  expect_sound(page_of_study(r, "m"));
   r = sobol();
   for (const char* kind : {"first", "total"})
     for (auto& [name, e] : r.answer["quantities"]["B1.a_n_m"][kind].items())
       e = {{"value", 0}, {"low", 0}, {"high", 0}};
-  expect_sound(study_html(r, "s"));
+  expect_sound(page_of_study(r, "s"));
   r = uncertainty();
   r.points.resize(2);
-  expect_sound(study_html(r, "u"));
+  expect_sound(page_of_study(r, "u"));
   r.points.resize(1);
-  expect_sound(study_html(r, "u"));
+  expect_sound(page_of_study(r, "u"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Owns the claims about the HDF5 file of a study: the same study comes back, under the names that are documented.
-#include "results/study_file.h"
+#include "results/store/study_file.h"
 
 #include <sys/resource.h>
 
@@ -7,9 +7,9 @@
 #include <csignal>
 #include <map>
 
-#include "results/file_paths.h"
-#include "results/hdf5_source.h"
-#include "results/whole_file.h"
+#include "results/store/file_paths.h"
+#include "results/store/hdf5_source.h"
+#include "results/store/whole_file.h"
 #include "tests/documented_names.h"
 #include "tests/unit/study_fixture.h"
 

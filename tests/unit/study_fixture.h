@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-#include "results/journal.h"
+#include "results/journal/journal.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife::study_test {

@@ -92,7 +92,7 @@ StudyRecord search() {
 }
 
 TEST(StudyOptimizePage, HasGainLayoutsCourseFinalistsLivesAndLimits) {
-  const std::string page = study_html(search(), "o.jsonl");
+  const std::string page = page_of_study(search(), "o.jsonl");
   expect_sound(page);
   expect_ids(page, {"layouts", "layout-start", "layout-best", "parameters", "study-parameters", "history",
                     "history-chart", "finalists", "lives", "lives-chart", "study-lives", "study-governing", "active",
@@ -108,7 +108,7 @@ TEST(StudyOptimizePage, HasGainLayoutsCourseFinalistsLivesAndLimits) {
 }
 
 TEST(StudyOptimizePage, StatesEveryLimitWithItsOwnBound) {
-  const std::string page = study_html(search(), "o");
+  const std::string page = page_of_study(search(), "o");
   // 120 of the pulley's own entry, not the 15 of all; value = bound + what is left.
   expect_words(page, {"wrap on crank", ">120.5<", ">at least 120<", "pulleys crank and a &amp; b", ">9.25<",
                       ">at least 9<", ">1260.2<", ">at most 1280<", ">-239.75<", ">at least -240<"});
@@ -116,7 +116,7 @@ TEST(StudyOptimizePage, StatesEveryLimitWithItsOwnBound) {
 }
 
 TEST(StudyOptimizePage, MarksTheParameterThatRestsOnItsBoundAndTheChangedChoice) {
-  const std::string page = study_html(search(), "o");
+  const std::string page = page_of_study(search(), "o");
   expect_words(page, {"class=\"alarm\">lower<", ">-240 to -180<", ">-39.75<", ">changed<"});
 }
 
@@ -129,7 +129,7 @@ TEST(StudyOptimizePage, OfASearchThatFoundNothingShowsWhatBreaksLeast) {
   r.answer["least_violating"] = least;
   r.answer["layouts"].erase("best");
   r.answer["error"] = "no layout keeps all limits";
-  const std::string page = study_html(r, "o");
+  const std::string page = page_of_study(r, "o");
   expect_sound(page);
   expect_words(page, {"no layout keeps all limits", "breaks least", "Breaks least: the &lt;bearing&gt; by 12 N",
                       "class=\"alarm\">1292<"});
@@ -141,7 +141,7 @@ TEST(StudyOptimizePage, SaysWhereNothingBetterThanTheStartWasFoundAndLimitsHoldI
   r.answer["best"] = r.answer["start"];
   r.answer["finalists"] = {finalist(r.answer["start"], 3)};
   r.answer["comparison"] = json::array();
-  const std::string page = study_html(r, "o");
+  const std::string page = page_of_study(r, "o");
   expect_sound(page);
   expect_words(page, {"<strong>nothing better than the start</strong>", "Its limits hold in 3 of 4 replicates only."});
 }
@@ -157,7 +157,7 @@ TEST(StudyOptimizePage, ShowsTheDistrustedCoarseModelTheFrontAndTheChoices) {
       {"quantity", "B100.pulley.<b>.hub_load_n.mean"}, {"maximize", false}, {"model", "fine"}, {"front", {a, b}}};
   r.answer["combinations"] = {{{"choices", "side back"}, {"budget", 2}, {"why", ""}},
                               {{"choices", "side front"}, {"budget", 0}, {"why", "no layout <fits>"}}};
-  const std::string page = study_html(r, "o");
+  const std::string page = page_of_study(r, "o");
   expect_sound(page);
   expect_ids(page, {"fidelity", "pareto", "study-front", "combinations", "study-combinations"});
   expect_words(page, {"The coarse model was not trusted</strong> (rank correlation 0.5)", ">1290<",
@@ -171,11 +171,11 @@ TEST(StudyOptimizePage, AnswersOfAnyKindGiveASoundPage) {
       StudyRecord r = search();
       r.answer[key] = odd;
       SCOPED_TRACE(std::string(key) + " " + odd.dump());
-      expect_sound(study_html(r, "o"));
+      expect_sound(page_of_study(r, "o"));
     }
   StudyRecord r = search();
   r.head.study_text = "[[parameter";
-  expect_sound(study_html(r, "o"));
+  expect_sound(page_of_study(r, "o"));
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <map>
 #include <regex>
 
-#include "results/study_page.h"
+#include "calibrate/pages/calibrate_page.h"
+#include "optimize/pages/optimize_page.h"
+#include "studies/pages.h"
 #include "tests/unit/study_fixture.h"
 
 namespace beltlife::study_test {
@@ -33,6 +35,14 @@ inline void expect_sound(const std::string& page) {
     EXPECT_EQ(count[(*i)[1]], 1) << i->str();
   EXPECT_EQ(page.find("<script"), page.npos);
   EXPECT_EQ(page.find("src="), page.npos);
+}
+
+/// The page as the command report makes it.
+inline std::string page_of_study(const StudyRecord& record, const std::string& name) {
+  std::vector<StudyPage> pages(study_pages().begin(), study_pages().end());
+  pages.push_back(calibrate_page());
+  pages.push_back(optimize_page());
+  return study_html(record, name, pages);
 }
 
 inline bool has_id(const std::string& page, const std::string& id) {

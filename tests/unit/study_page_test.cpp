@@ -1,5 +1,5 @@
 // Owns the claims about the pages of studies: their sections and numbers, and that odd records do not break them.
-#include "results/study_page.h"
+#include "results/pages/study/study_page.h"
 
 #include "tests/unit/study_page_fixture.h"
 
@@ -123,7 +123,7 @@ StudyRecord stability() {
 }
 
 TEST(StudyPage, OfNoiseHasScatterResponsesAndFailuresByReason) {
-  const std::string page = study_html(noise(), "n.jsonl");
+  const std::string page = page_of_study(noise(), "n.jsonl");
   expect_sound(page);
   expect_ids(page, {"summary", "key-numbers", "noise", "noise-bars", "study-noise-table", "responses", "replicates-0",
                     "failures", "failures-by-reason-words", "failures-words", "points", "points-0-0", "provenance",
@@ -137,7 +137,7 @@ TEST(StudyPage, OfNoiseHasScatterResponsesAndFailuresByReason) {
 }
 
 TEST(StudyPage, OfConvergenceHasChartsCheapestAndEverySetting) {
-  const std::string page = study_html(convergence(), "c.h5");
+  const std::string page = page_of_study(convergence(), "c.h5");
   expect_sound(page);
   expect_ids(page, {"errors", "errors-tensions", "cheapest", "study-cheapest", "settings", "study-settings-words",
                     "quantities", "not-judged", "study-quantities", "provenance"});
@@ -149,7 +149,7 @@ TEST(StudyPage, OfConvergenceHasChartsCheapestAndEverySetting) {
 }
 
 TEST(StudyPage, OfStabilityHasEveryRowAndColoursWhatAlarms) {
-  const std::string page = study_html(stability(), "s.h5");
+  const std::string page = page_of_study(stability(), "s.h5");
   expect_sound(page);
   expect_ids(page, {"steps", "steps-belt.friction-front", "study-steps-words", "extremes", "study-extremes-words",
                     "failures"});
@@ -162,19 +162,19 @@ TEST(StudyPage, OfStabilityHasEveryRowAndColoursWhatAlarms) {
 TEST(StudyPage, OfAStudyThatHasNotEndedSaysSoAndHasItsPoints) {
   StudyRecord r = noise();
   r.answer = nullptr;
-  const std::string page = study_html(r, "n.jsonl");
+  const std::string page = page_of_study(r, "n.jsonl");
   expect_sound(page);
   expect_words(page, {"This study has not ended.", "9 points"});
   expect_ids(page, {"summary", "failures", "points", "provenance"});
   EXPECT_FALSE(has_id(page, "noise"));
   r.points.clear();
-  expect_sound(study_html(r, "n.jsonl"));
+  expect_sound(page_of_study(r, "n.jsonl"));
 }
 
 TEST(StudyPage, OfAnUnknownKindHasTheAnswerAsItIs) {
   StudyRecord r = noise();
   r.head.driver = "study of <something>";
-  const std::string page = study_html(r, "n.jsonl");
+  const std::string page = page_of_study(r, "n.jsonl");
   expect_sound(page);
   expect_ids(page, {"answer", "points", "failures"});
   expect_words(page, {"study of &lt;something&gt;"});
@@ -185,7 +185,7 @@ TEST(StudyPage, OfAnAnswerThatIsAnErrorSaysWhy) {
     StudyRecord r = record_of(driver, {"a"}, {"b"});
     add_failure(r, {1.0}, "no <luck>");
     r.answer = {{"error", "the nominal point diverged: no <luck>"}, {"evaluations", 1}};
-    const std::string page = study_html(r, "x");
+    const std::string page = page_of_study(r, "x");
     expect_sound(page);
     expect_words(page, {"no &lt;luck&gt;"});
   }
@@ -197,23 +197,23 @@ TEST(StudyPage, SurvivesOneSettingZerosAndAnswersOfAnotherShape) {
   one.answer["settings"][0]["errors"]["tensions"]["error"] = 0.0;
   one.answer["settings"].erase(1);
   one.answer["reference_band"]["tensions"]["error"] = nullptr;
-  const std::string page = study_html(one, "c");
+  const std::string page = page_of_study(one, "c");
   expect_sound(page);
   expect_words(page, {"No error above zero"});
   StudyRecord zero = noise();
   zero.answer["quantities"].erase(odd_name);
   zero.head.quantities.erase(zero.head.quantities.begin());
-  expect_words(study_html(zero, "n"), {"No scatter is above zero"});
+  expect_words(page_of_study(zero, "n"), {"No scatter is above zero"});
   for (StudyRecord r : {noise(), convergence(), stability()}) {
     for (auto& [key, value] : r.answer.items()) value = nullptr;
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
     for (const json& odd : {json(7), json("text"), json(json::array({1, "a", nullptr}))}) {
       r.answer = odd;
-      expect_sound(study_html(r, "x"));
+      expect_sound(page_of_study(r, "x"));
     }
     for (const char* key : {"quantities", "settings", "groups", "steps", "extremes", "cheapest", "orders"})
       r.answer = {{key, {1, "a", nullptr, json::object()}}, {"groups", {"g"}}};
-    expect_sound(study_html(r, "x"));
+    expect_sound(page_of_study(r, "x"));
   }
 }
 
@@ -221,7 +221,7 @@ TEST(StudyPage, ThinsThousandsOfPointsAndListsTheFirstFailures) {
   StudyRecord r = record_of("study sobol", {"p", "constant"}, {"q"});
   for (int i = 0; i < 4000; ++i) add_point(r, {i * 0.25, 1.0}, {1.0 / (1 + i)}, 0);
   for (int i = 0; i < 60; ++i) add_failure(r, {0.5, 1.0}, "reason " + std::to_string(i));
-  const std::string page = study_html(r, "x");
+  const std::string page = page_of_study(r, "x");
   expect_sound(page);
   expect_ids(page, {"points-0-0"});
   EXPECT_FALSE(has_id(page, "points-0-1")) << "a constant parameter has no chart";

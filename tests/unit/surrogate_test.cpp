@@ -1,5 +1,5 @@
 // Owns the claims about surrogates: they foretell what they say they foretell, and say so when they cannot.
-#include "studies/surrogate_study.h"
+#include "studies/surrogate/surrogate_study.h"
 #include "tests/unit/sampled_fixture.h"
 
 namespace beltlife::study_test {

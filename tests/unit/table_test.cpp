@@ -1,5 +1,5 @@
 // Owns the tests of plain-text tables.
-#include "results/table.h"
+#include "results/text/table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Owns the claims about the UM-Bridge protocol as text: what requests are answered with, and that no request breaks it.
-#include "results/um_bridge.h"
+#include "results/server/um_bridge.h"
 
 #include <gtest/gtest.h>
 

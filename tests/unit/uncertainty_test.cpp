@@ -1,8 +1,8 @@
 // Owns the claims about scatter: distributions and correlations as given, intervals that hold, failures not hidden.
 #include <algorithm>
 
-#include "studies/order_statistics.h"
-#include "studies/uncertainty_study.h"
+#include "studies/uncertainty/order_statistics.h"
+#include "studies/uncertainty/uncertainty_study.h"
 #include "tests/unit/sampled_fixture.h"
 
 namespace beltlife::study_test {

@@ -1,0 +1,13 @@
+// Owns how the command calibrate shows its answer on a page.
+#pragma once
+
+#include "results/pages/study/study_page.h"
+
+namespace beltlife {
+
+StudyPart calibrate_part(const StudyRecord& record);
+
+/// The row for the command report.
+const StudyPage& calibrate_page();
+
+}  // namespace beltlife

@@ -1,0 +1,50 @@
+// Quasi-static limits: see running_limits.h.
+#include "optimize/layout/running_limits.h"
+
+#include <algorithm>
+
+#include "sim/scene/scene_io.h"
+#include "sim/statics/quasi_static.h"
+
+namespace beltlife {
+
+std::vector<RunningLimits> running_limits(const SceneSpec& scene, const PlacedLayout& layout, const ArmReach& reach,
+                                          bool friction_band, RunningDetail detail) {
+  constexpr double most_safety = 100;
+  std::vector<RunningLimits> all(scene.range.size());
+  if (!layout.shape.can_be_built() || layout.missing > 0) return all;
+  try {
+    Model model = compile(scene);
+    if (detail == RunningDetail::without_bending_loss) model.belt.bending_damping = 0;
+    // The friction at the arm makes the band alone, and is not looked at elsewhere.
+    if (!friction_band) model.tensioner.friction_torque = model.tensioner.friction_shortening = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto same = std::find_if(scene.range.begin(), scene.range.begin() + static_cast<std::ptrdiff_t>(i),
+                                     [&](const RangeSpec& r) { return r.crank_rpm == scene.range[i].crank_rpm; });
+      if (const auto k = static_cast<std::size_t>(same - scene.range.begin()); k < i) {
+        all[i] = all[k];
+        continue;
+      }
+      const QuasiStaticRange q = solve_quasi_static(model, scene.range[i]);
+      RunningLimits& out = all[i];
+      out.solved = !q.error;
+      if (!out.solved) continue;
+      if (q.arm_angle_low && layout.arm) {
+        const double low = *q.arm_angle_low - reach.low.angle, high = reach.high.angle - *q.arm_angle_high;
+        out.lengthening = model.tensioner.lengthening > 0 ? high : low;
+        out.shortening = model.tensioner.lengthening > 0 ? low : high;
+      }
+      out.slip_safety = most_safety;
+      for (const QuasiStaticPulley& p : q.pulleys) {
+        if (p.slip_safety && p.speed > 0) out.slip_safety = std::min(out.slip_safety, *p.slip_safety);
+        out.hub_load = std::max(out.hub_load, p.hub_load_high);
+      }
+    }
+  } catch (const BadInput&) {
+    // A layout that compile() refuses for a reason of its own is one that cannot run.
+    return std::vector<RunningLimits>(scene.range.size());
+  }
+  return all;
+}
+
+}  // namespace beltlife

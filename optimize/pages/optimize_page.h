@@ -1,0 +1,13 @@
+// Owns how the command optimize shows its answer on a page.
+#pragma once
+
+#include "results/pages/study/study_page.h"
+
+namespace beltlife {
+
+StudyPart optimize_part(const StudyRecord& record);
+
+/// The row for the command report.
+const StudyPage& optimize_page();
+
+}  // namespace beltlife

@@ -1,0 +1,34 @@
+// The pages of the kinds of study: see pages.h.
+#include "studies/pages.h"
+
+#include "results/pages/study/study_parts.h"
+#include "studies/noise/noise_page.h"
+
+namespace beltlife {
+namespace {
+
+constexpr StudyPage pages[] = {
+    {"study noise", "Noise", "how far quantities scatter without anything of importance being changed",
+     typed_part<NoiseAnswer, noise_part>, true, ""},
+    {"study convergence", "Convergence", "error against run time, by scheme, step and mesh", convergence_part, false,
+     "A setting that failed has no errors; it stays in the table of settings."},
+    {"study stability", "Stability", "predicted and observed stable steps, and whether extreme cases run",
+     stability_part, false, "Bisection needs points on both sides of the longest stable step: many diverge by design."},
+    {"study oat", "One change at a time", "what single changes do, beside what was said of them", oat_part, false,
+     "A side that failed at some crank phases is judged by the others."},
+    {"study morris", "Elementary effects", "which parameters matter at all", morris_part, true,
+     "An effect needs both its points; those without are left out of the means."},
+    {"study sobol", "Sobol indices", "which share of the variance is whose", sobol_part, true,
+     "A base row with a failed point is left out whole. If failures favour some values, the indices are those of what "
+     "did not fail."},
+    {"study surrogate", "Surrogate", "which share of the variance is whose, by a model learnt from the points",
+     surrogate_part, true, "The surrogate has learnt nothing of what failed."},
+    {"study uncertainty", "Uncertainty", "how far quantities scatter with the scatter of the parameters",
+     uncertainty_part, true, "They are missing from every percentile and share."},
+};
+
+}  // namespace
+
+std::span<const StudyPage> study_pages() { return pages; }
+
+}  // namespace beltlife

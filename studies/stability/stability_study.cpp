@@ -1,0 +1,260 @@
+// The study of kind stability: see stability_study.h.
+#include "studies/stability/stability_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "results/text/table.h"
+#include "sim/run.h"
+
+namespace beltlife {
+namespace {
+
+// A point is a case by its settings, scheme and step (no text: the predicted one).
+const std::vector<std::string> columns{std::string(settings_column), "solver.scheme", "solver.step_s"};
+
+std::string joined_lines(const std::vector<std::string>& settings) {
+  std::string lines;
+  for (const std::string& s : settings) lines += (lines.empty() ? "" : "\n") + s;
+  return lines;
+}
+
+// Of a divergence: when and where. What limits the step has a column of its own.
+std::string shortened(const std::string& why) { return why.substr(0, why.find(": step ")); }
+
+struct Bisection {
+  std::size_t case_index = 0;
+  std::string scheme;
+  double predicted = 0;
+  std::string limited_by;
+  double stable = 0, unstable = 0;  ///< bounds; 0: not found yet
+  double residual = 0;              ///< at the longest stable step
+  std::string why;                  ///< of the shortest unstable one
+  bool done = false;
+  double next() const {
+    if (stable == 0 && unstable == 0) return predicted;
+    if (unstable == 0) return 2 * stable;
+    if (stable == 0) return 0.5 * unstable;
+    return std::sqrt(stable * unstable);
+  }
+};
+
+}  // namespace
+
+void StabilitySettings::check(ReadLog& log) const {
+  for (std::size_t i = 0; i < variation.size(); ++i)
+    if (variation[i].values.empty() && variation[i].factors.empty()) {
+      const auto at = SpecPath{}.child("study").child("variation").element(i);
+      if (!log.is_faulty(at.place)) log.add(at, log.line(at.place), "has neither values nor factors", "at least one");
+    }
+}
+
+StabilityStudy::StabilityStudy(const LoadedProblem& problem, const StabilitySettings& settings, ReadLog& log)
+    : problem_(problem), settings_(settings) {
+  const SpecPath study = SpecPath{}.child("study");
+  if (!problem.scene) {
+    log.add(SpecPath{}.child("scene"), log.line("scene"), "missing: steps are those of the embedded simulator",
+            "a scene");
+    return;
+  }
+  if (!problem.spec.quantities.empty())
+    log.add(SpecPath{}.child("quantities"), log.line("quantities"), "this kind of study records its own",
+            "no quantities");
+  if (!problem.spec.parameter.empty())
+    log.add(SpecPath{}.child("parameter"), log.line("parameter[0]"), "this kind of study has none",
+            "[[study.variation]], [[study.extreme]]");
+  const SceneSpec& scene = problem.scene->file.scene;
+  std::vector<std::string> known;
+  for (const RangeSpec& r : scene.range) known.push_back(r.name);
+  range_ = settings.range.empty() && !known.empty() ? known.front() : settings.range;
+  if (std::find(known.begin(), known.end(), range_) == known.end())
+    log.add(study.child("range"), log.line("study.range"), "no range '" + range_ + "'" + did_you_mean(range_, known),
+            joined(known));
+  cases_.push_back({"as the scene", "", {}});
+  for (std::size_t i = 0; i < settings.variation.size(); ++i) {
+    const VariationSpec& v = settings.variation[i];
+    const SpecPath at = study.child("variation").element(i).child("path");
+    try {
+      const double own = get_number(scene, v.path);
+      std::vector<double> values = v.values;
+      for (const double f : v.factors) values.push_back(f * own);
+      std::sort(values.begin(), values.end());
+      for (const double x : values) {
+        SceneSpec trial = scene;
+        set_number(trial, v.path, x);
+        cases_.push_back({v.path, fmt::format("{:g}", x), {fmt::format("{}={}", v.path, x)}});
+      }
+    } catch (const BadInput& bad) {
+      const Problem& p = bad.problems().front();
+      log.add(at, log.line(at.place), p.key + ": " + p.what, p.allowed);
+    }
+  }
+  for (std::size_t i = 0; i < settings.extreme.size(); ++i) {
+    const ExtremeSpec& e = settings.extreme[i];
+    try {
+      SceneSpec trial = scene;
+      for (const std::string& s : e.set) set_field(trial, s);
+      extremes_.push_back({e.name, "", e.set});
+    } catch (const BadInput& bad) {
+      const SpecPath at = study.child("extreme").element(i).child("set");
+      const Problem& p = bad.problems().front();
+      log.add(at, log.line(at.place), p.key + ": " + p.what, p.allowed);
+    }
+  }
+}
+
+StudyHead StabilityStudy::head() const {
+  StudyHead head;
+  head.lanes = "arcs";
+  head.parameters = columns;
+  for (const char* name : {"energy_residual", "drift"}) head.quantities.push_back(range_ + "." + name);
+  return head;
+}
+
+Point StabilityStudy::point(const Case& c, bool trial, std::string_view scheme, const std::string& step_s) const {
+  std::vector<std::string> settings;
+  if (trial)  // first, so that a case may change them
+    settings.insert(
+        settings.end(),
+        {fmt::format("profile.settle_s={}", settings_.settle_s), fmt::format("profile.ramp_s={}", settings_.ramp_s),
+         fmt::format("profile.hold_s={}", settings_.hold_s), fmt::format("profile.evaluate_s={}", settings_.hold_s),
+         "profile.settled_within="});
+  settings.insert(settings.end(), c.settings.begin(), c.settings.end());
+  return {joined_lines(settings), std::string(scheme), step_s};
+}
+
+PointModel StabilityStudy::model(int threads) const {
+  return model_of(problem_, columns, head().quantities, {.threads = threads, .use = LaneUse::arcs, .retry = false});
+}
+
+nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
+  std::vector<Bisection> all;
+  nlohmann::json rows = nlohmann::json::array();
+  for (std::size_t i = 0; i < cases_.size(); ++i)
+    for (const Scheme scheme : settings_.schemes) {
+      Bisection b;
+      b.case_index = i;
+      b.scheme = enum_name(scheme);
+      try {
+        const Model model =
+            compile(scene_at(problem_.scene->file.scene, columns, point(cases_[i], true, b.scheme, "")));
+        b.predicted = stable_step(model, scheme);
+        b.limited_by = step_limits(model, scheme).front().name;
+      } catch (const BadInput& bad) {
+        b.done = true;
+        b.why = "refused: " + bad.problems().front().what;
+      }
+      all.push_back(b);
+    }
+  for (int round = 1; std::any_of(all.begin(), all.end(), [](const auto& b) { return !b.done; }); ++round) {
+    std::vector<Point> points;
+    std::vector<std::size_t> which;
+    std::vector<double> tried;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].done) continue;
+      which.push_back(k);
+      tried.push_back(all[k].next());
+      points.push_back(point(cases_[all[k].case_index], true, all[k].scheme, fmt::format("{}", tried.back())));
+    }
+    const std::vector<Answer> answers = run.evaluate(points, fmt::format("bisection, round {}", round));
+    for (std::size_t j = 0; j < which.size(); ++j) {
+      Bisection& b = all[which[j]];
+      const Answer& a = answers[j];
+      if (a.state == PointState::infeasible || a.state == PointState::timed_out) {
+        b.done = true;
+        b.why = a.reason;
+        continue;
+      }
+      const bool stable = a.ok() && std::abs(a.values[0]) <= settings_.largest_residual;
+      if (stable) {
+        b.stable = tried[j];
+        b.residual = a.values[0];
+      } else {
+        b.unstable = tried[j];
+        b.why =
+            a.ok() ? fmt::format("{:.0f} % of the energy not accounted for", 100 * std::abs(a.values[0])) : a.reason;
+      }
+      b.done = (b.stable > 0 && b.unstable > 0 && b.unstable <= b.stable * (1 + settings_.resolution)) ||
+               (b.unstable == 0 && b.stable * 2 > settings_.longest * b.predicted) ||
+               (b.stable == 0 && b.unstable < b.predicted / settings_.longest);
+    }
+  }
+  for (const Bisection& b : all) {
+    nlohmann::json row{{"case", cases_[b.case_index].name},
+                       {"value", cases_[b.case_index].value},
+                       {"scheme", b.scheme},
+                       {"predicted_s", b.predicted},
+                       {"limited_by", b.limited_by},
+                       {"observed_s", b.stable},
+                       {"beyond_s", b.unstable},
+                       {"observed_over_predicted", b.predicted > 0 ? b.stable / b.predicted : 0},
+                       {"residual", b.residual},
+                       {"why", b.why}};
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+nlohmann::json StabilityStudy::extremes(StudyRun& run) const {
+  nlohmann::json rows = nlohmann::json::array();
+  std::vector<Point> points;
+  for (const Case& c : extremes_) {
+    SceneSpec scene = problem_.scene->file.scene;  // a case may bring its own scheme and step
+    for (const std::string& s : c.settings) set_field(scene, s);
+    const auto step = scene.solver.step_s;
+    points.push_back(point(c, false, enum_name(scene.solver.scheme), step ? fmt::format("{}", *step) : ""));
+  }
+  const std::vector<Answer> answers = run.evaluate(points, "extreme cases");
+  for (std::size_t i = 0; i < extremes_.size(); ++i) {
+    double step = 0;
+    try {
+      step = run_step(compile(scene_at(problem_.scene->file.scene, columns, points[i])));
+    } catch (const BadInput&) {
+      // The answer says what was wrong.
+    }
+    rows.push_back({{"case", extremes_[i].name},
+                    {"settings", joined_lines(extremes_[i].settings)},
+                    {"step_s", step},
+                    {"state", std::string(to_string(answers[i].state))},
+                    {"reason", answers[i].reason},
+                    {"residual", answers[i].ok() ? answers[i].values[0] : 0},
+                    {"drift", answers[i].ok() ? answers[i].values[1] : 0},
+                    {"processor_s", answers[i].processor_s}});
+  }
+  return rows;
+}
+
+nlohmann::json StabilityStudy::solve(StudyRun& run) const {
+  nlohmann::json answer;
+  answer["range"] = range_;
+  answer["extremes"] = extremes(run);
+  answer["steps"] = bisect(run);
+  return answer;
+}
+
+std::string StabilityStudy::text(const nlohmann::json& answer) {
+  const auto seconds = [](const nlohmann::json& s) {
+    return s.get<double>() > 0 ? fmt::format("{:.3g}", s.get<double>()) : std::string("-");
+  };
+  Table steps(
+      {"case", "value", "scheme", "predicted s", "observed s", "ratio", "residual %", "limited by", "beyond it"});
+  for (const auto& r : answer["steps"])
+    steps.row({r["case"], r["value"], r["scheme"], seconds(r["predicted_s"]), seconds(r["observed_s"]),
+               seconds(r["observed_over_predicted"]), fmt::format("{:.2g}", 100 * r["residual"].get<double>()),
+               r["limited_by"], shortened(r["why"])});
+  Table cases({"case", "step s", "ended", "residual %", "drift %", "processor s", "reason"});
+  for (const auto& r : answer["extremes"])
+    cases.row({r["case"], seconds(r["step_s"]), r["state"], fmt::format("{:.2g}", 100 * r["residual"].get<double>()),
+               fmt::format("{:.2g}", 100 * r["drift"].get<double>()),
+               fmt::format("{:.2g}", r["processor_s"].get<double>()), r["reason"]});
+  std::string words;
+  if (!answer["steps"].empty())
+    words += "Longest stable step, predicted and observed, range " + answer["range"].get<std::string>() + "\n\n" +
+             steps.text() + "\n";
+  if (!answer["extremes"].empty()) words += "Extreme cases, run as scenes are\n\n" + cases.text() + "\n";
+  return words;
+}
+
+}  // namespace beltlife

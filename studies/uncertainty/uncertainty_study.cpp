@@ -1,0 +1,219 @@
+// The study of kind uncertainty: see uncertainty_study.h.
+#include "studies/uncertainty/uncertainty_study.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "results/text/print.h"
+#include "results/text/table.h"
+#include "studies/sampled_study.h"
+#include "studies/uncertainty/order_statistics.h"
+
+namespace beltlife {
+namespace {
+
+SpecPath correlation_path(std::size_t i, const char* key) {
+  return SpecPath{}.child("study").child("correlation").element(i).child(key);
+}
+
+nlohmann::json json_of(const Bounds& b) {
+  const auto end = [](std::optional<double> v) { return v ? nlohmann::json(*v) : nlohmann::json(); };
+  return {{"low", end(b.low)}, {"high", end(b.high)}};
+}
+
+nlohmann::json json_of(double value, const Bounds& b) {
+  nlohmann::json j = json_of(b);
+  j["value"] = value;
+  return j;
+}
+
+/// Where the quantile of all points would lie if those that failed were all below, or all above, the rest.
+Bounds failed_at_an_end(const std::vector<double>& sorted, double share, std::size_t failed) {
+  const auto whole = static_cast<double>(sorted.size()), lost = static_cast<double>(failed);
+  const double below = (share * (whole + lost) - lost) / whole, above = share * (whole + lost) / whole;
+  Bounds b;
+  if (below >= 0) b.low = percentile(sorted, below);
+  if (above <= 1) b.high = percentile(sorted, above);
+  return b;
+}
+
+bool ends_in(const std::string& name, const std::string& last) { return name == last || name.ends_with("." + last); }
+
+}  // namespace
+
+void UncertaintySettings::check(ReadLog& log) const {
+  const SpecPath at = SpecPath{}.child("study").child("percentiles");
+  if (log.is_faulty(at.place)) return;
+  if (percentiles.empty()) log.add(at, log.line(at.place), "is empty", "percentiles above 0 and below 100");
+  if (std::find(percentiles.begin(), percentiles.end(), 100) != percentiles.end())
+    log.add(at, log.line(at.place), "a sample has no 100th percentile", "above 0 and below 100");
+}
+
+std::vector<std::string> UncertaintyStudy::quantities(const Model& m) { return life_quantity(m); }
+
+UncertaintyStudy::UncertaintyStudy(const LoadedProblem& problem, const UncertaintySettings& settings, ReadLog& log)
+    : problem_(problem), settings_(settings) {
+  check_scatter(problem.spec, log);
+  const std::vector<std::string> paths = problem.spec.paths();
+  const auto count = static_cast<Eigen::Index>(paths.size());
+  struct Pair {
+    std::size_t entry;
+    Eigen::Index a, b;
+  };
+  std::vector<Pair> pairs;
+  if (!settings.correlation.empty()) correlation_ = Eigen::MatrixXd::Identity(count, count);
+  for (std::size_t i = 0; i < settings.correlation.size(); ++i) {
+    const CorrelationSpec& c = settings.correlation[i];
+    const auto refuse = [&](const char* key, const std::string& what, const std::string& allowed) {
+      const SpecPath path = correlation_path(i, key);
+      log.add(path, log.line(path.place), what, allowed);
+    };
+    std::vector<Eigen::Index> at;
+    for (const std::string& path : c.between) {
+      const auto found = std::find(paths.begin(), paths.end(), path);
+      if (found == paths.end()) {
+        refuse("between", "no parameter '" + path + "'" + did_you_mean(path, paths), joined(paths));
+        break;
+      }
+      at.push_back(found - paths.begin());
+    }
+    if (at.size() < c.between.size()) continue;
+    if (at.size() != 2 || at[0] == at[1]) {
+      refuse("between", fmt::format("names {} where a correlation is between two", at.size() == 2 ? "one" : "not two"),
+             "paths of two parameters");
+      continue;
+    }
+    if (std::any_of(pairs.begin(), pairs.end(),
+                    [&](const Pair& p) { return (p.a == at[0] && p.b == at[1]) || (p.a == at[1] && p.b == at[0]); })) {
+      refuse("between", "stands in an earlier correlation already", "each pair once");
+      continue;
+    }
+    correlation_(at[0], at[1]) = correlation_(at[1], at[0]) = c.value;
+    pairs.push_back({i, at[0], at[1]});
+  }
+  if (pairs.empty()) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_);
+  if (eigen.eigenvalues()(0) > 1e-10) return;
+  // The one that takes most from the variance of the combination that would have none, or less.
+  const Eigen::VectorXd v = eigen.eigenvectors().col(0);
+  const auto part = [&](const Pair& p) { return v(p.a) * v(p.b) * correlation_(p.a, p.b); };
+  const Pair& worst =
+      *std::min_element(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return part(p) < part(q); });
+  const SpecPath path = correlation_path(worst.entry, "value");
+  log.add(path, log.line(path.place),
+          fmt::format("{} cannot hold beside the other correlations (0 where none is given): their matrix is not "
+                      "positive definite, its smallest eigenvalue {:.2g}",
+                      correlation_(worst.a, worst.b), eigen.eigenvalues()(0)),
+          "correlations that can hold together");
+}
+
+StudyHead UncertaintyStudy::head() const { return sampled_head(problem_); }
+PointModel UncertaintyStudy::model(int threads) const { return sampled_model(problem_, threads); }
+
+nlohmann::json UncertaintyStudy::scatter(const std::string& quantity, std::vector<double> values,
+                                         std::size_t failed) const {
+  std::sort(values.begin(), values.end());
+  const Moments m = moments_of(values);
+  nlohmann::json j{{"mean", m.mean},
+                   {"standard_deviation", m.standard_deviation},
+                   {"standard_error", m.standard_deviation / std::sqrt(static_cast<double>(values.size()))}};
+  for (const double p : settings_.percentiles) {
+    const std::string key = fmt::format("{}", p);
+    j["percentiles"][key] = percentile(values, p / 100);
+    j["percentile_intervals"][key] = json_of(percentile_interval(values, p / 100, settings_.confidence));
+    if (failed > 0) j["percentiles_by_failures"][key] = json_of(failed_at_an_end(values, p / 100, failed));
+  }
+  const bool logarithm = ends_in(quantity, "log10_life_h");
+  if (!logarithm && !ends_in(quantity, "life_h")) return j;
+  for (double& v : values) v = logarithm ? std::pow(10, v) : v;
+  j["b10_life_h"] = json_of(percentile(values, 0.1), percentile_interval(values, 0.1, settings_.confidence));
+  if (!settings_.target_life_h) return j;
+  const auto missed = static_cast<std::size_t>(
+      std::lower_bound(values.begin(), values.end(), *settings_.target_life_h) - values.begin());
+  const auto share = [&](std::size_t hits, std::size_t of) {
+    return static_cast<double>(hits) / static_cast<double>(of);
+  };
+  j["missing_target"] =
+      json_of(share(missed, values.size()), share_interval(missed, values.size(), settings_.confidence));
+  j["missing_target"]["if_failed_hold"] = share(missed, values.size() + failed);
+  j["missing_target"]["if_failed_miss"] = share(missed + failed, values.size() + failed);
+  return j;
+}
+
+nlohmann::json UncertaintyStudy::solve(StudyRun& run) const {
+  const std::vector<ParameterSpec>& parameters = problem_.spec.parameter;
+  const Rows cube =
+      unit_design(settings_.method, static_cast<std::size_t>(settings_.samples), parameters.size(), settings_.seed);
+  const std::vector<Answer> answers = run.evaluate(points_of(Inputs(parameters, correlation_).at(cube)), "uncertainty");
+
+  nlohmann::json answer;
+  answer["samples"] = answers.size();
+  answer["confidence"] = settings_.confidence;
+  if (settings_.target_life_h) answer["target_life_h"] = *settings_.target_life_h;
+  std::size_t used = 0;
+  for (std::size_t q = 0; q < problem_.spec.quantities.size(); ++q) {
+    std::vector<double> values;
+    for (const auto& row : whole_groups(answers, 1, q)) values.push_back(row[0]);
+    used = values.size();
+    const std::string& name = problem_.spec.quantities[q];
+    if (used > 1) answer["quantities"][name] = scatter(name, std::move(values), answers.size() - used);
+  }
+  answer["failed_share"] = 1 - static_cast<double>(used) / static_cast<double>(answers.size());
+  if (used < 2) answer["error"] = fmt::format("only {} of {} points are ok", used, answers.size());
+  return answer;
+}
+
+std::string UncertaintyStudy::text(const nlohmann::json& answer) {
+  if (answer.contains("error")) return answer["error"].get<std::string>() + "\n";
+  const double confidence = 100 * answer["confidence"].get<double>(), lost = answer["failed_share"];
+  const int points = answer["samples"];
+  const auto interval = [](const nlohmann::json& b) {
+    return b["low"].is_null() && b["high"].is_null() ? "none: too few points"
+                                                     : fmt::format("{} .. {}", cell(b["low"], 5), cell(b["high"], 5));
+  };
+  std::string words =
+      fmt::format("Scatter over {} points; intervals of {:g} % by order statistics.\n", points, confidence);
+  if (lost > 0)
+    words += fmt::format(
+        "{:.2g} % of the points failed and are missing from all that follows; by failures: where a percentile would\n"
+        "be if they all lay below, or all above, the rest (-: anywhere).\n",
+        100 * lost);
+  for (const auto& [name, q] : answer["quantities"].items()) {
+    words += fmt::format("\n{}{}: mean {} +- {} (standard error), standard deviation {}\n\n", name, in_unit(name),
+                         cell(q["mean"], 5), cell(q["standard_error"], 2), cell(q["standard_deviation"], 3));
+    std::vector<double> order;
+    for (const auto& [key, value] : q["percentiles"].items()) order.push_back(std::stod(key));
+    std::sort(order.begin(), order.end());
+    std::vector<std::string> header{"percentile", "value", "interval"};
+    if (lost > 0) header.emplace_back("by failures");
+    Table table(header);
+    for (const double p : order) {
+      const std::string key = fmt::format("{}", p);
+      std::vector<std::string> row{key, cell(q["percentiles"][key], 5), interval(q["percentile_intervals"][key])};
+      if (lost > 0) {
+        const auto& b = q["percentiles_by_failures"][key];
+        row.push_back(cell(b["low"], 5) + " .. " + cell(b["high"], 5));
+      }
+      table.row(std::move(row));
+    }
+    words += table.text();
+    if (q.contains("b10_life_h"))
+      words += fmt::format("\nB10 life: nine of ten live longer than {} h (interval {}).\n",
+                           cell(q["b10_life_h"]["value"], 4), interval(q["b10_life_h"]));
+    if (q.contains("missing_target")) {
+      const auto& m = q["missing_target"];
+      const auto percent = [](const nlohmann::json& share) { return fmt::format("{:.2g}", 100 * share.get<double>()); };
+      words +=
+          fmt::format("Probability of less than {} h: {} % (Wilson's interval {} .. {} %",
+                      cell(answer["target_life_h"], 6), percent(m["value"]), percent(m["low"]), percent(m["high"]));
+      words +=
+          lost > 0 ? fmt::format("; {} % if every failed point misses it).\n", percent(m["if_failed_miss"])) : ").\n";
+    }
+  }
+  return words;
+}
+
+}  // namespace beltlife

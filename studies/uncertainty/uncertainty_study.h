@@ -1,0 +1,61 @@
+// Owns the study of kind uncertainty: how quantities scatter when the parameters do, and how sure a life is.
+#pragma once
+
+#include "results/course/study_run.h"
+#include "studies/openturns/openturns_inputs.h"
+
+namespace beltlife {
+
+struct CorrelationSpec {
+  std::vector<std::string> between;
+  double value = 0;
+
+  template <class V>
+  void visit(V& v) {
+    v("between", between, required_text, "paths of two parameters");
+    v("value", value, required(within(-1, 1)),
+      "correlation of the normal scores behind them (normal copula); of two normal parameters their own");
+  }
+};
+
+struct UncertaintySettings {
+  int samples = 256;
+  SamplingMethod method = SamplingMethod::lhs;
+  std::int64_t seed = 1;
+  double confidence = 0.95;
+  std::vector<double> percentiles = {5, 50, 95};
+  std::optional<double> target_life_h;
+  std::vector<CorrelationSpec> correlation;
+
+  template <class V>
+  void visit(V& v) {
+    v("samples", samples, within(2, 1000000), "points");
+    v("method", method, any_text, "how the points fill the parameters' distributions");
+    v("seed", seed, within(0, 9e15), "of the points");
+    v("confidence", confidence, within(0.5, 0.999), "of the intervals");
+    v("percentiles", percentiles, above(0, 100), "of each quantity, below 100");
+    v("target_life_h", target_life_h, above(0, 1e300), "life whose probability of being missed is asked for");
+    v("correlation", correlation, any_text, "parameters that do not scatter independently; all others do");
+  }
+  void check(ReadLog& log) const;
+};
+
+class UncertaintyStudy {
+ public:
+  using Settings = UncertaintySettings;
+  static std::vector<std::string> quantities(const Model& model);
+  UncertaintyStudy(const LoadedProblem& problem, const UncertaintySettings& settings, ReadLog& log);
+  StudyHead head() const;
+  PointModel model(int threads) const;
+  nlohmann::json solve(StudyRun& run) const;
+  static std::string text(const nlohmann::json& answer);
+
+ private:
+  nlohmann::json scatter(const std::string& quantity, std::vector<double> values, std::size_t failed) const;
+
+  LoadedProblem problem_;
+  UncertaintySettings settings_;
+  Eigen::MatrixXd correlation_;  ///< empty: independent
+};
+
+}  // namespace beltlife
