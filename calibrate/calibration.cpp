@@ -36,7 +36,7 @@ std::vector<ParameterSpec> tuned_set(const SceneSpec& scene) {
 
 }  // namespace
 
-void Calibration::prepare(Spec& spec, const CommandOptions&, ReadLog& log) {
+void Calibration::prepare(Spec& spec, const DriverOptions&, ReadLog& log) {
   if (spec.problem.parameter.empty() && spec.problem.scene && !log.is_faulty("parameter") && !log.is_faulty("scene")) {
     try {
       const auto path = std::filesystem::path(log.file).parent_path() / *spec.problem.scene;

@@ -10,7 +10,7 @@ namespace beltlife {
 class Calibration {
  public:
   using Spec = CalibrationSpec;
-  static void prepare(Spec& spec, const CommandOptions& options, ReadLog& log);
+  static void prepare(Spec& spec, const DriverOptions& options, ReadLog& log);
   static std::vector<std::string> quantities(const Model&) { return {}; }  // what the targets need is added later
   Calibration(const LoadedProblem& problem, const Spec& spec, ReadLog& log);
   StudyHead head() const;

@@ -1,16 +1,13 @@
-// Owns the entry of the command calibrate.
+// Owns the commands calibrate and twin.
 #pragma once
 
-#include <string>
-
-#include "results/commands/commands.h"
+#include "results/course/command_line.h"
 
 namespace beltlife {
 
-/// Fits a model to measurements as the file options.scenes[0] says. Exit code as of the other commands.
-int run_calibrate(const CommandOptions& options);
-
-/// Reference of the file's fields, as Markdown.
-std::string calibrate_fields();
+/// Fits a model to measurements.
+void add_calibrate_command(CommandLine& line);
+/// Makes records out of the model, to try a calibration on.
+void add_twin_command(CommandLine& line);
 
 }  // namespace beltlife

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <random>
 
-#include "results/commands/scene_runs.h"
 #include "results/course/loaded_scene.h"
+#include "results/course/scene_runs.h"
 #include "results/store/whole_file.h"
 
 namespace beltlife {
@@ -54,18 +54,17 @@ std::string csv_of(const TwinSpec& spec, const RunRecord& record, const std::str
 
 }  // namespace
 
-int run_twin(const CommandOptions& o) {
-  auto input = read_study<TwinSpec>(o.scenes.at(0));
+int run_twin(const TwinOptions& o) {
+  auto input = read_study<TwinSpec>(o.file);
   TwinSpec& spec = input.spec;
   throw_problems(std::move(input.log.problems));
-  CommandOptions of_scene = o;
-  of_scene.out.clear();
-  of_scene.scenes = {(input.path.parent_path() / spec.scene).string()};
-  of_scene.settings = spec.set;
-  of_scene.settings.insert(of_scene.settings.end(), o.settings.begin(), o.settings.end());
-  LoadedScene scene = load_scene(of_scene.scenes.front(), of_scene);
+  RangeOptions of_scene;
+  static_cast<CommonOptions&>(of_scene) = o;
+  of_scene.settings.insert(of_scene.settings.begin(), spec.set.begin(), spec.set.end());
+  const std::string path = (input.path.parent_path() / spec.scene).string();
+  LoadedScene scene = load_scene(path, of_scene.settings);
   if (!scene.file.scene.output)
-    throw BadInput({Problem{of_scene.scenes.front(), 0, "output", "missing: there is nothing to record", "[output]"}});
+    throw BadInput({Problem{path, 0, "output", "missing: there is nothing to record", "[output]"}});
   // Recorded is what follows the stretch in which the scene says the drive settles.
   ProfileSpec& profile = scene.file.scene.profile;
   profile.hold_s = std::max(profile.hold_s - profile.evaluate_s, 0.0) + spec.seconds;
@@ -92,7 +91,5 @@ int run_twin(const CommandOptions& o) {
   }
   return 0;
 }
-
-std::string twin_fields() { return reference_of<TwinSpec>(); }
 
 }  // namespace beltlife

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "results/commands/commands.h"
+#include "results/course/options.h"
 #include "sim/eval/study_input.h"
 
 namespace beltlife {
@@ -37,9 +38,14 @@ struct TwinSpec {
   }
 };
 
-/// Runs the ranges of the file options.scenes[0] and writes PREFIX_RANGE.csv each (options.out: PREFIX; absent: the
-/// file's name) with time, speed and torque of the scene's output. options.seed replaces the file's.
-int run_twin(const CommandOptions& options);
-std::string twin_fields();
+struct TwinOptions : CommonOptions {
+  std::string file;
+  std::string out;                    ///< --out: PREFIX of the files' names; empty: the file's name
+  std::optional<std::uint64_t> seed;  ///< --seed, in place of the file's
+};
+
+/// Runs the ranges of the file and writes PREFIX_RANGE.csv each with time, speed and torque of the scene's output. The
+/// exit code.
+int run_twin(const TwinOptions& options);
 
 }  // namespace beltlife

@@ -1,17 +1,11 @@
-// Owns the entry of the command optimize.
+// Owns the command optimize.
 #pragma once
 
-#include <string>
-
-#include "results/commands/commands.h"
+#include "results/course/command_line.h"
 
 namespace beltlife {
 
-/// Looks for the best layout as the file options.scenes[0] says. Exit code as of the other commands; 3 also where no
-/// layout keeps all limits.
-int run_optimize(const CommandOptions& options);
-
-/// Reference of the file's fields, as Markdown.
-std::string optimize_fields();
+/// Looks for the best layout. Exit code 3 also where no layout keeps all limits.
+void add_optimize_command(CommandLine& line);
 
 }  // namespace beltlife

@@ -24,7 +24,7 @@ bool is_life(const std::string& quantity) { return quantity.ends_with("life_h");
 
 }  // namespace
 
-void LayoutSearch::prepare(Spec& spec, const CommandOptions& options, ReadLog& log) {
+void LayoutSearch::prepare(Spec& spec, const DriverOptions& options, ReadLog& log) {
   if (options.seed) spec.optimization.seed = static_cast<std::int64_t>(*options.seed);
   for (const ParameterSpec& p : spec.problem.parameter) spec.start_given.push_back(p.start.has_value());
   if (log.problems.empty()) check_optimization(spec, log);

@@ -9,7 +9,7 @@ namespace beltlife {
 class LayoutSearch {
  public:
   using Spec = OptimizationSpec;
-  static void prepare(Spec& spec, const CommandOptions& options, ReadLog& log);
+  static void prepare(Spec& spec, const DriverOptions& options, ReadLog& log);
   static std::vector<std::string> quantities(const Model&) { return {}; }  // what is needed is added later
   LayoutSearch(const LoadedProblem& problem, const Spec& spec, ReadLog& log);
   StudyHead head() const;

@@ -2,11 +2,23 @@
 #include "optimize/commands.h"
 #include "optimize/layout_search.h"
 #include "results/course/run_driver.h"
+#include "results/course/shared_options.h"
 
 namespace beltlife {
 
-int run_optimize(const CommandOptions& o) { return run_driver<LayoutSearch>(o, "optimize"); }
-
-std::string optimize_fields() { return reference_of<OptimizationSpec>(); }
+void add_optimize_command(CommandLine& line) {
+  auto o = std::make_shared<DriverOptions>();
+  Command command = line.command("optimize", "search layouts for the longest life, within named clearances");
+  driver_flags(command, *o, "search file (TOML)", true);
+  command.prints("--fields", reference_of<OptimizationSpec>, "print the reference of the file's fields as Markdown")
+      .footer(
+          "Examples:\n"
+          "  beltlife optimize optimize/examples/small.toml\n"
+          "  beltlife optimize optimize/examples/thesis_quick.toml --out quick.h5 && beltlife report quick.h5\n"
+          "A run that is stopped goes on with the same command. Fields of the file: --fields, or optimize/README.md.")
+      .spreads_over_processes()
+      .runs(
+          o, +[](const DriverOptions& options) { return run_driver<LayoutSearch>(options, "optimize"); });
+}
 
 }  // namespace beltlife

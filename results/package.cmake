@@ -16,8 +16,10 @@ install(FILES ${PROJECT_BINARY_DIR}/scenes DESTINATION ${data_dir} COMPONENT pro
 install(FILES tests/install/consumer/CMakeLists.txt tests/install/consumer/main.cpp
   DESTINATION ${data_dir}/examples/embed COMPONENT dev)
 
-file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS README.md CHANGELOG.md sim/README.md sim/*/README.md
-  studies/README.md calibrate/README.md optimize/README.md results/README.md results/*.svg results/reports/*/README.md)
+file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS README.md CHANGELOG.md sim/*.md sim/*/*.md
+  studies/README.md calibrate/README.md optimize/README.md results/README.md results/*.md results/*/*.md results/*.svg
+  results/reports/*/README.md)
+list(REMOVE_DUPLICATES documents)
 foreach(document ${documents})
   get_filename_component(folder ${document} DIRECTORY)
   install(FILES ${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT program)

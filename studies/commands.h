@@ -1,20 +1,19 @@
-// Owns the entry of the command study.
+// Owns the command study and its kinds.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "results/commands/commands.h"
+#include "results/course/command_line.h"
 
 namespace beltlife {
 
-/// Runs the study `options.kind` described by the file options.scenes[0]. Exit code as of the other commands.
-int run_study(const CommandOptions& options);
+void add_study_command(CommandLine& line);
 
 /// Kinds with a line about each, in the order in which --help shows them.
 struct StudyKind {
   std::string name, about;
-  int (*run)(const CommandOptions&);
+  int (*run)(const DriverOptions&);
   bool seeded;              ///< draws numbers, so that --seed means something
   std::string (*fields)();  ///< reference of its study file, as Markdown
 };

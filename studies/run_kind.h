@@ -10,17 +10,12 @@ namespace beltlife {
 template <class Kind>
 struct StudyDriver : Kind {
   using Spec = StudySpec<typename Kind::Settings>;
-  static void prepare(Spec& spec, const CommandOptions& o, ReadLog& log) {
+  static void prepare(Spec& spec, const DriverOptions& o, ReadLog& log) {
     if constexpr (requires { spec.study.seed; })
       if (o.seed) spec.study.seed = static_cast<std::int64_t>(*o.seed);
     spec.study.check(log);
   }
   StudyDriver(const LoadedProblem& problem, const Spec& spec, ReadLog& log) : Kind(problem, spec.study, log) {}
 };
-
-template <class Kind>
-int run_kind(const CommandOptions& o) {
-  return run_driver<StudyDriver<Kind>>(o, "study " + o.kind);
-}
 
 }  // namespace beltlife

@@ -1,4 +1,4 @@
-// Owns what results/README.md documents: the names in a result file with their units, and its spelling of a real path.
+// Owns what is documented of files: the names in them with their units, and the spelling of a real path.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,12 @@
 
 namespace beltlife {
 
-/// Unit by name, read off the table below this heading of the README.
-inline std::map<std::string, std::string> documented_units(const std::string& heading = "## Format 1") {
+/// Unit by name, read off the table of a document in results/store.
+inline std::map<std::string, std::string> documented_units(const std::string& document = "result_files.md") {
   std::map<std::string, std::string> documented;
-  std::ifstream readme(std::filesystem::path(BELTLIFE_SOURCE) / "results/README.md");
-  bool below = false;
-  for (std::string line; std::getline(readme, line);) {
-    if (line.starts_with("## ")) below = line == heading;
-    if (!below || !line.starts_with("| `/")) continue;  // rows are | `name` | unit | meaning |
+  std::ifstream text(std::filesystem::path(BELTLIFE_SOURCE) / "results/store" / document);
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with("| `/")) continue;  // rows are | `name` | unit | meaning |
     const std::size_t end = line.find('`', 3), bar = line.find('|', end), next = line.find('|', bar + 1);
     const std::string cell = line.substr(bar + 2, next - bar - 2);
     documented[line.substr(3, end - 3)] = cell.empty() ? "" : cell.substr(0, cell.size() - 1);

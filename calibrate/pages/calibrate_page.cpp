@@ -334,7 +334,7 @@ StudyPart calibrate_part(const StudyRecord& record) {
   return part;
 }
 
-const StudyPage& calibrate_page() {
+const StudyPage& calibration_page() {
   static constexpr StudyPage page{
       "calibrate",    "Calibration", "with which parameters the model answers as was measured",
       calibrate_part, false,         "A step that fails is shortened, and a start that fails is passed over."};

@@ -8,6 +8,6 @@ namespace beltlife {
 StudyPart calibrate_part(const StudyRecord& record);
 
 /// The row for the command report.
-const StudyPage& calibrate_page();
+const StudyPage& calibration_page();
 
 }  // namespace beltlife

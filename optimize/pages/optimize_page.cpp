@@ -361,7 +361,7 @@ StudyPart optimize_part(const StudyRecord& record) {
   return part;
 }
 
-const StudyPage& optimize_page() {
+const StudyPage& layout_search_page() {
   static constexpr StudyPage page{
       "optimize",
       "Layout search",

@@ -8,6 +8,6 @@ namespace beltlife {
 StudyPart optimize_part(const StudyRecord& record);
 
 /// The row for the command report.
-const StudyPage& optimize_page();
+const StudyPage& layout_search_page();
 
 }  // namespace beltlife

@@ -58,7 +58,10 @@ struct NoteTaker {
 
   template <class T>
   void operator()(std::string_view name, T&, std::string_view unit, std::string_view meaning) {
-    AnswerNote note{std::string(name), std::string(unit), std::string(meaning)};
+    AnswerNote note;
+    note.name = name;
+    note.unit = unit;
+    note.meaning = meaning;
     describe_part<T>(note);
     notes.push_back(std::move(note));
   }

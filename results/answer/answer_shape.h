@@ -74,16 +74,4 @@ struct DriverAnswer {
   }
 };
 
-/// A number with its interval.
-struct Estimate {
-  double value = not_known, low = not_known, high = not_known;
-
-  template <class V>
-  void visit(V& v) {
-    v("value", value, unit_of_its_name, "estimate");
-    v("low", low, unit_of_its_name, "lower end of its interval");
-    v("high", high, unit_of_its_name, "upper end of its interval");
-  }
-};
-
 }  // namespace beltlife

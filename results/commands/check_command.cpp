@@ -3,7 +3,9 @@
 
 #include <numbers>
 
+#include "results/commands/commands.h"
 #include "results/course/loaded_scene.h"
+#include "results/course/shared_options.h"
 #include "results/text/print.h"
 #include "results/text/print_statics.h"
 #include "results/text/table.h"
@@ -82,55 +84,83 @@ void print_layout(const Model& m) {
         s.placed_strain_tension);
 }
 
-}  // namespace
+struct CheckOptions : CommonOptions {
+  std::string scene;
+};
 
-int run_check(const CommandOptions& o) {
-  const LoadedScene l = load_scene(o.scenes.at(0), o);
+nlohmann::json json_of(const LoadedScene& l, const std::string& path) {
   const Model& m = l.model;
-  const auto limits = step_limits(m, m.scene.solver.scheme);
-  const auto kernels = kernel_names(m);
-  if (o.json) {
-    nlohmann::json j{{"scene", o.scenes[0]},
-                     {"scheme", enum_name(m.scene.solver.scheme)},
-                     {"elements", m.belt.nodes},
-                     {"stable_step_s", stable_step(m, m.scene.solver.scheme)},
-                     {"step_s", run_step(m)},
-                     {"kernels", nlohmann::json::array()},
-                     {"quantities", quantity_names(m)},
-                     {"parameters", number_paths(l.file.scene)},
-                     {"step_limits", nlohmann::json::array()}};
-    for (const std::string& name : kernels) j["kernels"].push_back(name);
-    for (const StepLimit& limit : limits)
-      j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
-    if (m.pulleys > 0) {
-      j["printed"] = layout_json(m, m.statics.placed, m.statics.placed_unstretched_length);
-      j["static"] = layout_json(m, m.statics.balance, m.statics.unstretched_length);
-      j["clearances"] = nlohmann::json::array();
-      for (const Clearance& c : clearances(m.scene, m.statics.balance.route))
-        j["clearances"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
-      add_statics(m, j);
-    }
-    fmt::print("{}\n", json_text(j));
-    return 0;
-  }
-  fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
-  if (m.pulleys == 0) fmt::print("a ring without pulleys has no layout and no statics\n\n");
+  nlohmann::json j{{"scene", path},
+                   {"scheme", enum_name(m.scene.solver.scheme)},
+                   {"elements", m.belt.nodes},
+                   {"stable_step_s", stable_step(m, m.scene.solver.scheme)},
+                   {"step_s", run_step(m)},
+                   {"kernels", nlohmann::json::array()},
+                   {"quantities", quantity_names(m)},
+                   {"parameters", number_paths(l.file.scene)},
+                   {"step_limits", nlohmann::json::array()}};
+  for (const std::string& name : kernel_names(m)) j["kernels"].push_back(name);
+  for (const StepLimit& limit : step_limits(m, m.scene.solver.scheme))
+    j["step_limits"].push_back({{"name", limit.name}, {"formula", limit.formula}, {"limit_s", limit.limit_s}});
   if (m.pulleys > 0) {
-    print_layout(m);
-    const auto all = clearances(m.scene, m.statics.balance.route);
-    const Clearance* tightest = nullptr;
-    for (const Clearance& c : all)
-      if (c.unit == "mm" && (!tightest || c.value < tightest->value)) tightest = &c;
-    if (tightest) fmt::print("tightest clearance: {}, {:.1f} mm\n\n", tightest->name, tightest->value);
-    fmt::print("{}", statics_text(m));
+    j["printed"] = layout_json(m, m.statics.placed, m.statics.placed_unstretched_length);
+    j["static"] = layout_json(m, m.statics.balance, m.statics.unstretched_length);
+    j["clearances"] = nlohmann::json::array();
+    for (const Clearance& c : clearances(m.scene, m.statics.balance.route))
+      j["clearances"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
+    add_statics(m, j);
   }
+  return j;
+}
+
+void print_tightest(const Model& m) {
+  const auto all = clearances(m.scene, m.statics.balance.route);
+  const Clearance* tightest = nullptr;
+  for (const Clearance& c : all)
+    if (c.unit == "mm" && (!tightest || c.value < tightest->value)) tightest = &c;
+  if (tightest) fmt::print("tightest clearance: {}, {:.1f} mm\n\n", tightest->name, tightest->value);
+}
+
+void print_solver(const Model& m) {
+  const auto limits = step_limits(m, m.scene.solver.scheme);
   Table table({"step limit", "s", "formula"});
   for (const StepLimit& limit : limits) table.row({limit.name, fmt::format("{:.3g}", limit.limit_s), limit.formula});
   fmt::print("{}\nscheme {}, {} elements, step {:.4g} s (limit {:.4g})\nkernels:", table.text(0),
              enum_name(m.scene.solver.scheme), m.belt.nodes, run_step(m), limits.front().limit_s);
+  const auto kernels = kernel_names(m);
   for (std::size_t i = 0; i < kernels.size(); ++i) fmt::print("{} {}", i ? "," : "", kernels[i]);
   fmt::print("\n{} quantities can be studied; --json lists them\n", quantity_names(m).size());
+}
+
+int run_check(const CheckOptions& o) {
+  const LoadedScene l = load_scene(o.scene, o.settings);
+  const Model& m = l.model;
+  if (o.json) {
+    fmt::print("{}\n", json_text(json_of(l, o.scene)));
+    return 0;
+  }
+  fmt::print("{}{}\n\n", o.scene, m.scene.title.empty() ? "" : ": " + m.scene.title);
+  if (m.pulleys > 0) {
+    print_layout(m);
+    print_tightest(m);
+    fmt::print("{}", statics_text(m));
+  } else {
+    fmt::print("a ring without pulleys has no layout and no statics\n\n");
+  }
+  print_solver(m);
   return 0;
+}
+
+}  // namespace
+
+void add_check_command(CommandLine& line) {
+  auto o = std::make_shared<CheckOptions>();
+  Command command =
+      line.command("check", "read a scene, solve its layout and static balance, print limits and names; runs nothing");
+  common_flags(command, *o);
+  command.input("scene", o->scene, "scene file (TOML)")
+      .footer("Example:\n  beltlife check sim/scenes/baseline.toml --json")
+      .runs(o, run_check);
 }
 
 }  // namespace beltlife

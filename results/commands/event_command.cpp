@@ -1,14 +1,14 @@
 // The command simulate of a scene with an event: its run, and the extremes of every part with their times.
 #include <fmt/format.h>
 
-#include "results/commands/scene_runs.h"
 #include "results/commands/stretch_run.h"
+#include "results/course/scene_runs.h"
 #include "results/text/event_text.h"
 #include "results/text/print.h"
 
 namespace beltlife {
 
-int run_event(const LoadedScene& l, const CommandOptions& o) {
+int run_event(const LoadedScene& l, const SimulateOptions& o) {
   const RunPlan plan = plan_event(l.file.scene);
   const StretchRun run = run_stretch(l, plan, o);
   const EventSummary summary = summarise_event(l.model, run.record, run.window);

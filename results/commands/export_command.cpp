@@ -35,19 +35,23 @@ std::string list_json(const std::vector<DatasetEntry>& list) {
 
 void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-}  // namespace
+struct ExportOptions {
+  std::string file;
+  std::vector<std::string> datasets;  ///< DATASET
+  std::string out;                    ///< --out, empty: standard output
+  bool json = false, quiet = false;
+};
 
-int run_export(const CommandOptions& o) {
-  const std::string& input = o.scenes.at(0);
+int run_export(const ExportOptions& o) {
   if (o.datasets.empty() && !o.out.empty())
     throw BadInput({Problem{"--out", 0, "", "there is nothing to write without a DATASET",
                             "names of datasets or groups; without them and --out they are listed"}});
   if (!o.datasets.empty() && o.json)
     throw BadInput({Problem{"--json", 0, "", "datasets come out as CSV", "--json without DATASET, for the list"}});
   std::error_code ignored;
-  if (!o.out.empty() && std::filesystem::equivalent(input, o.out, ignored))
+  if (!o.out.empty() && std::filesystem::equivalent(o.file, o.out, ignored))
     throw BadInput({Problem{o.out, 0, "--out", "is the file that is read", "another name"}});
-  const Hdf5Source file(input);
+  const Hdf5Source file(o.file);
   if (o.datasets.empty()) {
     const auto list = datasets_of(file);
     print(o.json ? list_json(list) : list_text(list));
@@ -61,6 +65,27 @@ int run_export(const CommandOptions& o) {
     write_whole_file(o.out, csv);
   if (!o.out.empty() && !o.quiet) fmt::print("wrote {}\n", o.out);
   return 0;
+}
+
+}  // namespace
+
+void add_export_command(CommandLine& line) {
+  auto o = std::make_shared<ExportOptions>();
+  line.command("export", "list the datasets of a result or study file, or write them as CSV")
+      .input("file", o->file, "HDF5 file (--out of simulate, life, study, ...)")
+      .inputs_or_none("datasets", o->datasets,
+                      "datasets, or groups whose datasets are equally long, to stand side by side; without any they "
+                      "are listed",
+                      "DATASET")
+      .text("--out", o->out, "FILE.csv", "write there instead of to standard output")
+      .flag("--json", o->json, "the list as one JSON object")
+      .flag("--quiet", o->quiet, "do not say what was written")
+      .footer(
+          "Examples:\n"
+          "  beltlife export two.h5\n"
+          "  beltlife export two.h5 runs/0/trace --out trace.csv\n"
+          "  beltlife export two.h5 ranges/fast/spectra/frequency_hz ranges/fast/spectra/driven.speed_rpm")
+      .runs(o, run_export);
 }
 
 }  // namespace beltlife

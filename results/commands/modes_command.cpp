@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "results/commands/commands.h"
+#include "results/course/shared_options.h"
 #include "results/pages/campbell_chart.h"
 #include "results/pages/gnuplot.h"
 #include "results/text/print.h"
@@ -222,54 +223,81 @@ DriveModes modes_of(const Model& m, const std::vector<std::string>& names) {
   return modes;
 }
 
-}  // namespace
+struct ModesCommandOptions : CommonOptions {
+  std::string scene;
+  std::vector<std::string> ranges;  ///< --range
+  std::string map;                  ///< --map: SVG file, empty: none
+};
 
-int run_modes(const CommandOptions& o) {
+nlohmann::json json_of(const Model& m, const DriveModes& modes, const std::string& path, const std::string& nothing) {
+  nlohmann::json j{{"scene", path},
+                   {"ranges", nlohmann::json::object()},
+                   {"map", json_of(modes.map)},
+                   {"crossings", json_of(modes.crossings)}};
+  if (!nothing.empty()) j["nothing_to_solve"] = nothing;
+  for (const Modes& p : modes.points) j["ranges"][p.range.name] = json_of(m, p);
+  return j;
+}
+
+void print_modes(const Model& m, const DriveModes& modes, const std::string& path, const std::string& nothing) {
+  fmt::print("{}{}\n\n", path, m.scene.title.empty() ? "" : ": " + m.scene.title);
+  if (!nothing.empty()) fmt::print("{}\n", nothing);
+  if (modes.points.empty()) return;
+  for (std::size_t arm = 0; arm < modes.points.front().arms.size(); ++arm) {
+    print_rotational(m, modes.points, arm, true);
+    print_rotational(m, modes.points, arm, false);
+  }
+  print_transverse(modes.points);
+  print_doubts(modes.points, m);
+  if (!modes.map.crank_rpm.empty()) print_crossings(modes.crossings, m.scene);
+}
+
+int run_modes(const ModesCommandOptions& o) {
   if (!o.map.empty() && !has_gnuplot())
     throw BadInput({Problem{o.map, 0, "--map", "gnuplot draws the map and is not installed",
                             "apt-get install gnuplot-nox, or no --map"}});
-  const SceneFile file = read_scene(o.scenes.at(0), o.settings);
+  const SceneFile file = read_scene(o.scene, o.settings);
   Model m;
   try {
-    m = compile(file.scene, o.scenes[0]);
+    m = compile(file.scene, o.scene);
   } catch (const BadInput& bad) {
     throw located(file, bad);
   }
   const DriveModes modes = modes_of(m, o.ranges);
-  const auto& [points, diagram, found] = modes;
   const std::string nothing =
       m.pulleys == 0 ? "a ring without pulleys has no rotational modes and no free spans: there is nothing to solve"
                      : "";
-
-  if (o.json) {
-    nlohmann::json j{{"scene", o.scenes[0]},
-                     {"ranges", nlohmann::json::object()},
-                     {"map", json_of(diagram)},
-                     {"crossings", json_of(found)}};
-    if (!nothing.empty()) j["nothing_to_solve"] = nothing;
-    for (const Modes& p : points) j["ranges"][p.range.name] = json_of(m, p);
-    fmt::print("{}\n", json_text(j));
-  } else {
-    fmt::print("{}{}\n\n", o.scenes[0], m.scene.title.empty() ? "" : ": " + m.scene.title);
-    if (!nothing.empty()) fmt::print("{}\n", nothing);
-    if (!points.empty()) {
-      for (std::size_t arm = 0; arm < points.front().arms.size(); ++arm) {
-        print_rotational(m, points, arm, true);
-        print_rotational(m, points, arm, false);
-      }
-      print_transverse(points);
-      print_doubts(points, m);
-      if (!diagram.crank_rpm.empty()) print_crossings(found, m.scene);
-    }
-  }
+  if (o.json)
+    fmt::print("{}\n", json_text(json_of(m, modes, o.scene, nothing)));
+  else
+    print_modes(m, modes, o.scene, nothing);
   if (o.map.empty()) return 0;
-  if (diagram.curves.empty()) {
+  if (modes.map.curves.empty()) {
     if (!o.quiet) fmt::print(stderr, "no map: there are no natural frequencies over a range of speeds\n");
     return 0;
   }
   draw_map(o.map, map_script(m.scene, modes));
   if (!o.quiet) fmt::print(stderr, "wrote {}\n", o.map);
   return 0;
+}
+
+}  // namespace
+
+void add_modes_command(CommandLine& line) {
+  auto o = std::make_shared<ModesCommandOptions>();
+  Command command = line.command(
+      "modes", "natural frequencies of every range, rotational and of the spans, and their crossings with orders");
+  common_flags(command, *o);
+  command.input("scene", o->scene, "scene file (TOML)")
+      .text("--map", o->map, "FILE.svg", "also draw frequencies over crank speed with rays of orders (needs gnuplot)")
+      .texts("--range", o->ranges, "NAME", "only this operating range, without crossings and map (repeatable)")
+      .excludes("--range", "--map")
+      .footer(
+          "Examples:\n"
+          "  beltlife modes sim/scenes/baseline.toml\n"
+          "  beltlife modes sim/scenes/baseline.toml --range B100\n"
+          "  beltlife modes sim/scenes/accessory_drive.toml --map accessory.svg")
+      .runs(o, run_modes);
 }
 
 }  // namespace beltlife

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/commands/scene_runs.h"
+#include "results/commands/commands.h"
+#include "results/course/scene_runs.h"
+#include "results/course/shared_options.h"
 #include "results/store/study_file.h"
 #include "results/store/whole_file.h"
 #include "results/text/print.h"
@@ -21,11 +23,18 @@
 namespace beltlife {
 namespace {
 
-const StudyPoint& point_of(const StudyRecord& record, const CommandOptions& o) {
+struct ReplayOptions : CommonOptions {
+  std::string file;
+  std::size_t point = 0;  ///< --point
+  std::string out;        ///< --out, empty: no file
+  int frames = 96;        ///< --frames
+};
+
+const StudyPoint& point_of(const StudyRecord& record, const ReplayOptions& o) {
   for (const StudyPoint& p : record.points)
     if (p.number == o.point) return p;
   throw BadInput({Problem{
-      o.scenes.at(0), 0, "--point", fmt::format("the study has no point {}", o.point),
+      o.file, 0, "--point", fmt::format("the study has no point {}", o.point),
       record.points.empty() ? "none: it has no points" : fmt::format("from 0 to {}", record.points.back().number)}});
 }
 
@@ -33,14 +42,14 @@ std::string text_of_setting(const Setting& s) {
   return std::holds_alternative<double>(s) ? fmt::format("{}", std::get<double>(s)) : std::get<std::string>(s);
 }
 
-LoadedScene scene_of(const StudyRecord& record, const StudyPoint& point, const CommandOptions& o) {
-  const SceneSpec base = parse_scene(record.head.scene_text, o.scenes.at(0));
+LoadedScene scene_of(const StudyRecord& record, const StudyPoint& point, const ReplayOptions& o) {
+  const SceneSpec base = parse_scene(record.head.scene_text, o.file);
   LoadedScene l;
   l.file.scene = scene_at(base, record.head.parameters, point.settings);
   l.file.path = record.head.scene_path;
   l.out = o.out;
   if (!l.out.empty()) check_writable(l.out);
-  l.model = compile(l.file.scene, o.scenes.at(0));
+  l.model = compile(l.file.scene, o.file);
   if (base.driver && base.driver->speed_csv)
     l.measured = read_speed_csv(l.file.path.parent_path() / *base.driver->speed_csv);
   if (!l.out.empty()) l.solved = solve_drive(l.model);
@@ -49,7 +58,7 @@ LoadedScene scene_of(const StudyRecord& record, const StudyPoint& point, const C
 
 // As the evaluator ran it, so that the bits are the same: lanes as noted, once more at half the step if it failed.
 std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan>& plans, bool drives,
-                                 const CommandOptions& o) {
+                                 const ReplayOptions& o) {
   std::vector<RunRecord> records(plans.size());
   const auto run_one = [&](const Model& model, const RunPlan& plan) {
     RunOptions options;
@@ -87,7 +96,7 @@ nlohmann::json quantities_of(const LoadedScene& l, const std::vector<RangeSummar
 }
 
 int compare(const StudyRecord& record, const StudyPoint& point, const nlohmann::json& again, nlohmann::json j,
-            const CommandOptions& o) {
+            const ReplayOptions& o) {
   j["point"] = point.number;
   j["state"] = std::string(to_string(point.answer.state));
   j["reason"] = point.answer.reason;
@@ -115,21 +124,21 @@ int compare(const StudyRecord& record, const StudyPoint& point, const nlohmann::
     fmt::print("  {} = {}\n", record.head.parameters[i], text_of_setting(point.settings[i]));
   if (!point.answer.values.empty())
     fmt::print("\n{}\n{}\n", table.text(),
-               identical ? "The same to the last bit."
-                         : fmt::format("Not the same: recorded by version {}, revision {}, now {}, {}.",
-                                       record.head.version, record.head.revision, o.version, o.revision));
+               identical
+                   ? "The same to the last bit."
+                   : fmt::format("Not the same: recorded by version {}, revision {}, now {}, {}.", record.head.version,
+                                 record.head.revision, o.program.version, o.program.revision));
   return 0;
 }
 
-int replay_command(const StudyRecord& record, const StudyPoint& point, const CommandOptions& o) {
+int replay_command(const StudyRecord& record, const StudyPoint& point, const ReplayOptions& o) {
   if (!o.out.empty())
-    throw BadInput(
-        {Problem{o.scenes.at(0), 0, "--out", "the study is of another program, which has no result file", ""}});
-  const TomlNode study = parse_toml(record.head.study_text, o.scenes.at(0));
+    throw BadInput({Problem{o.file, 0, "--out", "the study is of another program, which has no result file", ""}});
+  const TomlNode study = parse_toml(record.head.study_text, o.file);
   const TomlEntry* entry = study.table()->find("command");
-  if (!entry) throw BadInput({Problem{o.scenes.at(0), 0, "", "holds neither a scene nor a command", ""}});
+  if (!entry) throw BadInput({Problem{o.file, 0, "", "holds neither a scene nor a command", ""}});
   ReadLog log;
-  log.file = o.scenes.at(0);
+  log.file = o.file;
   const auto spec = read_spec<CommandSpec>(entry->node, log);
   throw_problems(std::move(log.problems));
   const auto folder = std::filesystem::absolute(record.head.study_path).parent_path();
@@ -142,10 +151,8 @@ int replay_command(const StudyRecord& record, const StudyPoint& point, const Com
   return again.ok() ? code : 3;
 }
 
-}  // namespace
-
-int run_replay(const CommandOptions& o) {
-  const StudyRecord record = read_study_record(o.scenes.at(0));
+int run_replay(const ReplayOptions& o) {
+  const StudyRecord record = read_study_record(o.file);
   const StudyPoint& point = point_of(record, o);
   if (record.head.scene_text.empty()) return replay_command(record, point, o);
   const LoadedScene l = scene_of(record, point, o);
@@ -161,6 +168,21 @@ int run_replay(const CommandOptions& o) {
   write_file(l, records, loads.empty() ? nullptr : &life, o);
   const int code = compare(record, point, quantities_of(l, summaries, loads, life), std::move(j), o);
   return failed ? 3 : code;
+}
+
+}  // namespace
+
+void add_replay_command(CommandLine& line) {
+  auto o = std::make_shared<ReplayOptions>();
+  Command command = line.command("replay", "run one point of a study again, with full output");
+  command.input("file", o->file, "log (.jsonl) or result file (.h5) of a study, calibration or search")
+      .required_whole("--point", o->point, {}, "number of the point, from 0")
+      .text("--out", o->out, "FILE.h5", "write an HDF5 result file, for beltlife report");
+  frames_flag(command, o->frames);
+  command.flag("--json", o->json, "print one JSON object on standard output")
+      .flag("--quiet", o->quiet, "no progress on standard error")
+      .footer("Example:\n  beltlife replay noise.jsonl --point 3 --out point3.h5 && beltlife report point3.h5")
+      .runs(o, run_replay);
 }
 
 }  // namespace beltlife

@@ -14,6 +14,13 @@
 namespace beltlife {
 namespace {
 
+struct ReportOptions {
+  std::vector<std::string> files;
+  std::string out;  ///< --out, empty: beside the first file
+  bool quiet = false;
+  std::vector<StudyPage> pages;  ///< of all kinds of study
+};
+
 /// NAME.html beside NAME.h5, NAME.jsonl or NAME.jsonl.gz.
 std::string page_beside(const std::string& input) {
   std::filesystem::path path = input;
@@ -21,9 +28,9 @@ std::string page_beside(const std::string& input) {
   return path.replace_extension(".html").string();
 }
 
-void check_output(const CommandOptions& o, const std::string& output) {
+void check_output(const ReportOptions& o, const std::string& output) {
   std::error_code ignored;
-  for (const std::string& input : o.scenes)
+  for (const std::string& input : o.files)
     if (std::filesystem::equivalent(input, output, ignored))
       throw BadInput({Problem{output, 0, "--out", "is the file that the page is about", "another name"}});
   check_writable(output);
@@ -50,20 +57,37 @@ std::string comparison_of(const std::vector<std::string>& inputs) {
   return comparison_html(files);
 }
 
-}  // namespace
-
-int run_report(const CommandOptions& o, std::span<const StudyPage> pages) {
-  const std::string& input = o.scenes.at(0);
-  const bool several = o.scenes.size() > 1;
-  const std::string beside = several ? comparison_page_beside(o.scenes) : page_beside(input);
+int run_report(const ReportOptions& o) {
+  const std::string& input = o.files.at(0);
+  const bool several = o.files.size() > 1;
+  const std::string beside = several ? comparison_page_beside(o.files) : page_beside(input);
   const std::string output = o.out.empty() ? beside : o.out;
   check_output(o, output);
-  const std::string page = several           ? comparison_of(o.scenes)
-                           : is_study(input) ? study_html(read_study_record(input), input, pages)
+  const std::string page = several           ? comparison_of(o.files)
+                           : is_study(input) ? study_html(read_study_record(input), input, o.pages)
                                              : report_html(read_results(input), input);
   write_whole_file(output, page);
   if (!o.quiet) fmt::print("wrote {}\n", output);
   return 0;
+}
+
+}  // namespace
+
+void add_report_command(CommandLine& line, std::vector<StudyPage> pages) {
+  auto o = std::make_shared<ReportOptions>();
+  o->pages = std::move(pages);
+  line.command("report",
+               "write one HTML page about a result file or a study, or about several result files side by side")
+      .inputs("files", o->files,
+              "HDF5 result file (--out of simulate, life, study), or a study's log (.jsonl, .jsonl.gz); several result "
+              "files of simulate and life are compared")
+      .text("--out", o->out, "FILE.html", "the page; by default beside the (first) file, ending in .html")
+      .flag("--quiet", o->quiet, "do not say what was written")
+      .footer(
+          "Examples:\n"
+          "  beltlife simulate sim/scenes/two_pulley.toml --each-range --out two.h5 && beltlife report two.h5\n"
+          "  beltlife report baseline.h5 alternative_1.h5    (writes baseline_vs_alternative_1.html)")
+      .runs(o, run_report);
 }
 
 }  // namespace beltlife

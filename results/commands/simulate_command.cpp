@@ -3,26 +3,27 @@
 
 #include <cmath>
 
-#include "results/commands/scene_runs.h"
-#include "results/commands/stretch_run.h"
+#include "results/commands/commands.h"
+#include "results/commands/simulate_options.h"
+#include "results/course/scene_runs.h"
+#include "results/course/shared_options.h"
 #include "results/text/print.h"
 
 namespace beltlife {
+namespace {
 
-int run_simulate(const CommandOptions& o) {
-  if (!o.sweep.empty()) return run_sweep(o);
-  const LoadedScene l = load_scene(o.scenes.at(0), o);
-  if (l.file.scene.event && !o.each_range && o.ranges.empty()) return run_event(l, o);
+std::vector<RunPlan> plans_for(const LoadedScene& l, const SimulateOptions& o) {
   const bool whole = !o.each_range && o.ranges.empty() && !l.file.scene.range.empty();
-  const auto plans =
-      whole ? std::vector<RunPlan>{plan_profile(l.file.scene, l.speed())} : plans_of(l.file.scene, o.ranges, l.speed());
-  if (whole && l.measured && l.measured->speed_rpm.front() > 1)
+  if (!whole) return plans_of(l.file.scene, o.ranges, l.speed());
+  if (l.measured && l.measured->speed_rpm.front() > 1)
     throw BadInput({Problem{
         *l.file.scene.driver->speed_csv, 0, "driver.speed_csv",
         fmt::format("starts at {:g} r/min, but the drive starts from rest", l.measured->speed_rpm.front()),
         "a measurement that starts from rest, or single ranges (--range, --each-range), which ramp up to it"}});
-  double wall = 0;
-  auto outcomes = run_all(l, plans, o, wall);
+  return {plan_profile(l.file.scene, l.speed())};
+}
+
+std::vector<KernelTime> summed_times(const std::vector<RunOutcome>& outcomes) {
   std::vector<KernelTime> times;
   for (const RunOutcome& outcome : outcomes) {
     if (times.empty()) times.resize(outcome.kernel_times.size());
@@ -32,6 +33,17 @@ int run_simulate(const CommandOptions& o) {
       times[i].calls += outcome.kernel_times[i].calls;
     }
   }
+  return times;
+}
+
+int run_simulate(const SimulateOptions& o) {
+  if (!o.sweep.empty()) return run_sweep(o);
+  const LoadedScene l = load_scene(o.scene, o.settings, o.out);
+  if (l.file.scene.event && !o.each_range && o.ranges.empty()) return run_event(l, o);
+  const auto plans = plans_for(l, o);
+  double wall = 0;
+  auto outcomes = run_all(l, plans, o, wall);
+  const std::vector<KernelTime> times = summed_times(outcomes);
   const auto records = records_of(std::move(outcomes));
   const auto loads = loads_of(l, records);
   const Life life = loads.empty() ? Life{} : life_of(l, loads, records);
@@ -70,6 +82,30 @@ int run_simulate(const CommandOptions& o) {
     if (o.profile) fmt::print("\n{}", text_of(times, l.model.belt.nodes));
   }
   return failed ? 3 : 0;
+}
+
+}  // namespace
+
+void add_simulate_command(CommandLine& line) {
+  auto o = std::make_shared<SimulateOptions>();
+  Command command = line.command(
+      "simulate",
+      "run the profile, single ranges, a run-up or an event; print tensions, slip, hub loads, spectra and energy");
+  range_flags(command, *o);
+  command.input("scene", o->scene, "scene file (TOML)")
+      .flag("--each-range", o->each_range, "every range alone, in parallel, instead of the profile")
+      .flag("--profile", o->profile, "print the time spent in each kernel")
+      .text("--sweep", o->sweep, "FROM:TO:SECONDS",
+            "run through crank speeds, e.g. 600:2200:60 (r/min, r/min, s), and print the output's orders over them")
+      .excludes("--sweep", "--range")
+      .excludes("--sweep", "--each-range")
+      .footer(
+          "Examples:\n"
+          "  beltlife simulate sim/scenes/baseline.toml --range B100 --set profile.hold_s=1.5\n"
+          "  beltlife simulate sim/scenes/accessory_drive.toml --each-range --json > accessory.json\n"
+          "  beltlife simulate sim/scenes/baseline.toml --sweep 600:2200:60 --out sweep.h5\n"
+          "  beltlife simulate sim/scenes/sudden_stop.toml")
+      .runs(o, run_simulate);
 }
 
 }  // namespace beltlife

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "results/commands/scene_runs.h"
+#include "results/course/scene_runs.h"
 #include "results/text/print.h"
 
 namespace beltlife {
 
-StretchRun run_stretch(const LoadedScene& l, const RunPlan& plan, const CommandOptions& o) {
+StretchRun run_stretch(const LoadedScene& l, const RunPlan& plan, const SimulateOptions& o) {
   StretchRun out;
   auto outcomes = run_all(l, {plan}, o, out.wall_s);
   out.kernel_times = std::move(outcomes.front().kernel_times);
@@ -46,7 +46,7 @@ nlohmann::json json_of(const StretchRun& run, const RunPlan& plan) {
   return j;
 }
 
-std::string closing_text(const StretchRun& run, const LoadedScene& l, const CommandOptions& o) {
+std::string closing_text(const StretchRun& run, const LoadedScene& l, const SimulateOptions& o) {
   std::string text = power_text(run.power_w, run.window.energy.relative_residual());
   text += fmt::format("\n{:.3g} s simulated in {:.3g} s, {} steps of {:.4g} s, {} with {} elements\n",
                       run.record.simulated_s, run.wall_s, run.record.steps, run.record.step_s,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "results/course/loaded_scene.h"
+#include "results/commands/simulate_options.h"
 #include "sim/record.h"
 #include "sim/run.h"
 
@@ -21,14 +21,14 @@ struct StretchRun {
 };
 
 /// Runs with progress on standard error; there also says what failed and what of the energy is amiss.
-StretchRun run_stretch(const LoadedScene& scene, const RunPlan& plan, const CommandOptions& options);
+StretchRun run_stretch(const LoadedScene& scene, const RunPlan& plan, const SimulateOptions& options);
 
 /// What simulate's answers have in common: status, run, times, step, energy.
 nlohmann::json json_of(const StretchRun& run, const RunPlan& plan);
 /// Energy, then one line about times, step and scheme; with --profile the time by kernel.
-std::string closing_text(const StretchRun& run, const LoadedScene& scene, const CommandOptions& options);
+std::string closing_text(const StretchRun& run, const LoadedScene& scene, const SimulateOptions& options);
 
 /// simulate of a scene with an event; returns the exit code.
-int run_event(const LoadedScene& scene, const CommandOptions& options);
+int run_event(const LoadedScene& scene, const SimulateOptions& options);
 
 }  // namespace beltlife

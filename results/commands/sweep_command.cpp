@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "results/commands/scene_runs.h"
 #include "results/commands/stretch_run.h"
+#include "results/course/scene_runs.h"
 #include "results/text/print.h"
 #include "results/text/table.h"
 #include "sim/signal/spectrum.h"
@@ -117,9 +117,9 @@ nlohmann::json json_of(const Sweep& s) {
 
 }  // namespace
 
-int run_sweep(const CommandOptions& o) {
+int run_sweep(const SimulateOptions& o) {
   const SweepSpec asked = sweep_from(o.sweep);
-  const LoadedScene l = load_scene(o.scenes.at(0), o);
+  const LoadedScene l = load_scene(o.scene, o.settings, o.out);
   refuse_without(l);
   const RunPlan plan = plan_sweep(l.file.scene, asked);
   const StretchRun run = run_stretch(l, plan, o);

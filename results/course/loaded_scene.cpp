@@ -13,13 +13,6 @@
 namespace beltlife {
 namespace {
 
-std::string out_of(const std::string& scene, const CommandOptions& o) {
-  if (o.out.empty() || o.scenes.size() == 1) return o.out;
-  const std::filesystem::path path = o.out;
-  return path.parent_path() /
-         (path.stem().string() + "_" + std::filesystem::path(scene).stem().string() + path.extension().string());
-}
-
 // A measurement that misses part of the profile would run on at its last speed. One sampling interval is forgiven.
 void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const std::string& file) {
   if (scene.range.empty()) return;
@@ -34,8 +27,8 @@ void refuse_short(const MeasuredSpeed& measured, const SceneSpec& scene, const s
 
 }  // namespace
 
-LoadedScene load_scene(const std::string& path, const CommandOptions& o) {
-  LoadedScene l{read_scene(path, o.settings), {}, {}, out_of(path, o), {}};
+LoadedScene load_scene(const std::string& path, const std::vector<std::string>& settings, const std::string& out) {
+  LoadedScene l{read_scene(path, settings), {}, {}, out, {}};
   if (!l.out.empty()) check_writable(l.out);
   try {
     l.model = compile(l.file.scene, path);

@@ -3,8 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "results/commands/commands.h"
 #include "sim/eval/solved_drive.h"
 #include "sim/model.h"
 #include "sim/scene/scene_io.h"
@@ -21,7 +21,8 @@ struct LoadedScene {
   const MeasuredSpeed* speed() const { return measured ? &*measured : nullptr; }
 };
 
-/// Reads and compiles; warns on standard error of a mesh too coarse for its pulleys. Throws BadInput.
-LoadedScene load_scene(const std::string& path, const CommandOptions& options);
+/// Reads and compiles; warns on standard error of a mesh too coarse for its pulleys. With `out`, a result file that
+/// will be written, what that file holds beside runs is solved at once. Throws BadInput.
+LoadedScene load_scene(const std::string& path, const std::vector<std::string>& settings, const std::string& out = "");
 
 }  // namespace beltlife

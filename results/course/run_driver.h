@@ -13,7 +13,7 @@
 namespace beltlife {
 
 /// `Driver` has a Spec with visit() and a member `problem`, and
-///   static void prepare(Spec&, const CommandOptions&, ReadLog&)   flags applied; adds what is wrong with it alone
+///   static void prepare(Spec&, const DriverOptions&, ReadLog&)    flags applied; adds what is wrong with it alone
 ///   static std::vector<std::string> quantities(const Model&)      recorded where the file names none
 ///   Driver(LoadedProblem, Spec, ReadLog&)                         adds what is wrong with file and scene together
 ///   StudyHead head(); PointModel model(threads)                   columns of its points, and who answers them
@@ -23,8 +23,8 @@ namespace beltlife {
 ///   static std::string text(const Result&)                        the answer for people
 /// `name` is what the log calls the driver.
 template <class Driver>
-int run_driver(const CommandOptions& o, const std::string& name) {
-  auto input = read_study<typename Driver::Spec>(o.scenes.at(0));
+int run_driver(const DriverOptions& o, const std::string& name) {
+  auto input = read_study<typename Driver::Spec>(o.file);
   Driver::prepare(input.spec, o, input.log);
   LoadedProblem problem = load_problem(input.spec.problem, input.path, Driver::quantities, o, input.log);
   throw_problems(input.log.problems);
@@ -37,11 +37,11 @@ int run_driver(const CommandOptions& o, const std::string& name) {
   }
 
   PointModel model = driver.model(o.threads);
-  if (o.ranks && !o.ranks->leads()) {
-    o.ranks->answer(model);
+  if (o.program.ranks && !o.program.ranks->leads()) {
+    o.program.ranks->answer(model);
     return 0;
   }
-  if (o.ranks) model = o.ranks->spread(std::move(model), o.threads);
+  if (o.program.ranks) model = o.program.ranks->spread(std::move(model), o.threads);
   StudyHead head = driver.head();
   head.driver = name;
   head.study_text = write_spec(input.spec) + head.study_text;

@@ -22,19 +22,19 @@ extern "C" void on_stop_signal(int number) {
   std::signal(number, SIG_DFL);
 }
 
-std::string out_of(const CommandOptions& o) {
+std::string out_of(const DriverOptions& o) {
   if (!o.out.empty()) return o.out;
-  return std::filesystem::path(o.scenes.at(0)).stem().string() + ".h5";
+  return std::filesystem::path(o.file).stem().string() + ".h5";
 }
 
 std::filesystem::path log_of(const std::string& out) { return std::filesystem::path(out).replace_extension(".jsonl"); }
 
-StudyHead completed(StudyHead head, const CommandOptions& o, const LoadedProblem& problem) {
-  head.version = o.version;
-  head.revision = o.revision;
-  head.compiler = o.compiler;
-  head.command_line = o.command_line;
-  head.study_path = o.scenes.at(0);
+StudyHead completed(StudyHead head, const DriverOptions& o, const LoadedProblem& problem) {
+  head.version = o.program.version;
+  head.revision = o.program.revision;
+  head.compiler = o.program.compiler;
+  head.command_line = o.program.command_line;
+  head.study_path = o.file;
   if (problem.scene) {
     head.scene_path = problem.scene->file.path.string();
     head.scene_text = write_scene(problem.scene->file.scene);
@@ -58,13 +58,11 @@ std::vector<double> LoadedProblem::start() const {
 }
 
 LoadedProblem load_problem(const ProblemSpec& spec, const std::filesystem::path& study,
-                           const std::function<std::vector<std::string>(const Model&)>& wanted, const CommandOptions& o,
+                           const std::function<std::vector<std::string>(const Model&)>& wanted, const CommonOptions& o,
                            ReadLog& log) {
   LoadedProblem problem{spec, std::filesystem::absolute(study).parent_path(), {}};
   check_problem(problem.spec, log);
   if (problem.spec.scene && !log.is_faulty("scene")) {
-    CommandOptions quiet = o;  // the result file is the study's
-    quiet.out.clear();
     const auto path = study.parent_path() / *problem.spec.scene;
     if (!std::filesystem::exists(path)) {
       log.add(SpecPath{}.child("scene"), log.line("scene"), fmt::format("there is no file {}", path.string()),
@@ -72,7 +70,7 @@ LoadedProblem load_problem(const ProblemSpec& spec, const std::filesystem::path&
       return problem;
     }
     try {
-      problem.scene = load_scene(path.string(), quiet);
+      problem.scene = load_scene(path.string(), o.settings);
     } catch (const BadInput& bad) {
       for (const Problem& p : bad.problems()) log.problems.push_back(p);
       log.faulty.insert("scene");
@@ -99,7 +97,7 @@ PointModel model_of(const LoadedProblem& problem, const std::vector<std::string>
   return drive_model(problem.scene->file.scene, paths, quantities, o);
 }
 
-StudyRun::StudyRun(const CommandOptions& options, const LoadedProblem& problem, StudyHead head, PointModel model)
+StudyRun::StudyRun(const DriverOptions& options, const LoadedProblem& problem, StudyHead head, PointModel model)
     : options_(options),
       out_(out_of(options)),
       journal_(checked_log(out_), completed(std::move(head), options, problem)),

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "results/answer/answer_note.h"
-#include "results/commands/commands.h"
 #include "results/course/loaded_scene.h"
+#include "results/course/options.h"
 #include "results/journal/journal.h"
 #include "sim/eval/drive_model.h"
 #include "sim/eval/study_input.h"
@@ -32,7 +32,7 @@ struct LoadedProblem {
 /// scene's among them, go to `log`; look there before using the result.
 LoadedProblem load_problem(const ProblemSpec& spec, const std::filesystem::path& study,
                            const std::function<std::vector<std::string>(const Model&)>& wanted,
-                           const CommandOptions& options, ReadLog& log);
+                           const CommonOptions& options, ReadLog& log);
 
 /// The model of a problem; with other paths or quantities than the file's where a driver brings its own.
 PointModel model_of(const LoadedProblem& problem, const std::vector<std::string>& paths,
@@ -43,7 +43,7 @@ class StudyRun {
  public:
   /// `head` needs driver, study_text, lanes, parameters and quantities; the rest is filled in. The log stands beside
   /// the result file: NAME.h5 has NAME.jsonl. Without --out both are named after the study file, in the working folder.
-  StudyRun(const CommandOptions& options, const LoadedProblem& problem, StudyHead head, PointModel model);
+  StudyRun(const DriverOptions& options, const LoadedProblem& problem, StudyHead head, PointModel model);
   ~StudyRun();
 
   /// Answers in the points' order, from the log as far as it goes. `what` names the batch in the progress.
@@ -58,7 +58,7 @@ class StudyRun {
   int threads() const { return options_.threads; }
 
  private:
-  CommandOptions options_;
+  DriverOptions options_;
   std::string out_;
   Journal journal_;
   JournaledModel model_;

@@ -1,4 +1,6 @@
-// The command serve: the model of a study file over UM-Bridge. See commands.h.
+// The command serve: see serve_command.h.
+#include "results/server/serve_command.h"
+
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "results/commands/commands.h"
+#include "results/course/shared_options.h"
 #include "results/course/study_run.h"
 #include "results/server/evaluation_queue.h"
 #include "results/server/http_listener.h"
@@ -16,6 +18,12 @@
 
 namespace beltlife {
 namespace {
+
+struct ServeOptions : CommonOptions {
+  std::string file;
+  std::optional<int> port;  ///< --port, in place of the file's
+  std::string address;      ///< --address, empty: the file's
+};
 
 // The second Ctrl-C ends the program as usual.
 extern "C" void on_serve_signal(int number) {
@@ -29,7 +37,7 @@ bool is_loopback(const std::string& address) {
   return address == "::1" || address == "localhost";
 }
 
-void apply_flags(ServerSpec& server, const CommandOptions& o) {
+void apply_flags(ServerSpec& server, const ServeOptions& o) {
   if (o.port) server.port = *o.port;
   if (!o.address.empty()) server.address = o.address;
 }
@@ -114,12 +122,8 @@ void serve(HttpListener& listener, EvaluationQueue& queue) {
   serving.join();
 }
 
-}  // namespace
-
-std::string serve_fields() { return reference_of<ServeSpec>(); }
-
-int run_serve(const CommandOptions& o) {
-  auto input = read_study<ServeSpec>(o.scenes.at(0));
+int run_serve(const ServeOptions& o) {
+  auto input = read_study<ServeSpec>(o.file);
   apply_flags(input.spec.server, o);
   const ServerSpec& server = input.spec.server;
   const LoadedProblem problem = load_problem(
@@ -162,6 +166,26 @@ int run_serve(const CommandOptions& o) {
   std::signal(SIGTERM, SIG_DFL);
   if (!o.quiet) fmt::print(stderr, "stopped after {} batches of evaluations\n", queue.batches());
   return 0;
+}
+
+}  // namespace
+
+void add_serve_command(CommandLine& line) {
+  auto o = std::make_shared<ServeOptions>();
+  Command command =
+      line.command("serve", "answer other programs over UM-Bridge (HTTP and JSON): parameters in, quantities out");
+  common_flags(command, *o);
+  threads_flag(command, o->threads, "points");
+  command.input("study", o->file, "study file (TOML)")
+      .whole("--port", o->port, {0, 65535}, "port to listen on, instead of the file's; 0: the system chooses one")
+      .text("--address", o->address, "A", "address to listen on, instead of the file's (127.0.0.1)")
+      .prints("--fields", reference_of<ServeSpec>, "print the reference of the file's fields as Markdown")
+      .footer(
+          "Examples:\n"
+          "  beltlife serve results/examples/serve_small.toml\n"
+          "  curl -d '{\"name\": \"beltlife\", \"input\": [[0.6, 600]]}' http://127.0.0.1:4242/Evaluate\n"
+          "Ctrl-C stops it. Fields of the file: --fields; protocol, errors and limits: results/server/README.md.")
+      .runs(o, run_serve);
 }
 
 }  // namespace beltlife

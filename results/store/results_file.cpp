@@ -21,7 +21,8 @@ namespace beltlife {
 namespace {
 
 void put_root(Hdf5Image& file, const Provenance& provenance) {
-  file.attribute("/", "description", "result of a simulated belt drive; results/README.md explains every name");
+  file.attribute("/", "description",
+                 "result of a simulated belt drive; results/store/result_files.md explains every name");
   file.attribute("/", names::root_format, std::int64_t{names::format});
   file.attribute("/", names::root_program, "beltlife");
   file.attribute("/", names::root_version, provenance.version);

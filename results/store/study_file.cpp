@@ -39,7 +39,7 @@ constexpr HeadText head_texts[] = {{names::root_driver, &StudyHead::driver},
                                    {names::root_lanes, &StudyHead::lanes}};
 
 void put_head(Hdf5Image& file, const StudyHead& head) {
-  file.attribute("/", "description", "study of a belt drive; results/README.md explains every name");
+  file.attribute("/", "description", "study of a belt drive; results/store/study_files.md explains every name");
   file.attribute("/", names::root_format, std::int64_t{names::format});
   file.attribute("/", names::root_program, "beltlife");
   file.attribute("/", names::root_kind, names::study);

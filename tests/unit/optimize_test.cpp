@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "optimize/commands.h"
 #include "optimize/design_problem.h"
 #include "optimize/fidelity_check.h"
 #include "optimize/finalists.h"
@@ -13,6 +12,7 @@
 #include "optimize/layout_search.h"
 #include "optimize/pareto.h"
 #include "optimize/scatter_draws.h"
+#include "results/course/run_driver.h"
 #include "sim/route/layout.h"
 #include "tests/unit/study_fixture.h"
 
@@ -35,9 +35,8 @@ struct Drive {
   OptimizationSpec spec;
 
   Drive() {
-    CommandOptions options;
     problem.spec.scene = std::string(BELTLIFE_SCENES) + "/baseline.toml";
-    problem.scene = load_scene(*problem.spec.scene, options);
+    problem.scene = load_scene(*problem.spec.scene, {});
     problem.scene->file.scene = layout_base(problem.scene->file.scene);
     problem.spec.parameter = {between("pulley.idler_5.x_mm", 30, 90, 60),
                               between("tensioner.pivot_y_mm", 540, 600, 570),
@@ -201,11 +200,11 @@ class OptimizeFile : public study_test::InFolder {
   /// What the command says of a file that it refuses before anything runs.
   std::string said_of(const std::string& text) {
     study_test::write_text(folder / "o.toml", text);
-    CommandOptions options;
-    options.scenes = {(folder / "o.toml").string()};
+    DriverOptions options;
+    options.file = (folder / "o.toml").string();
     options.out = (folder / "o.h5").string();
     options.quiet = true;
-    std::string words = study_test::refusal([&] { run_optimize(options); });
+    std::string words = study_test::refusal([&] { run_driver<LayoutSearch>(options, "optimize"); });
     EXPECT_EQ(files(), 1) << "something ran";
     return words;
   }
@@ -254,7 +253,7 @@ TEST(Optimize, TakesEveryExampleThatIsShipped) {
   int examples = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(BELTLIFE_SOURCE) + "/optimize/examples")) {
     auto input = read_study<OptimizationSpec>(entry.path());
-    CommandOptions options;
+    DriverOptions options;
     options.quiet = true;
     LayoutSearch::prepare(input.spec, options, input.log);
     const LoadedProblem problem =

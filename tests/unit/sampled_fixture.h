@@ -79,10 +79,10 @@ inline bool fails_by_chance(const std::vector<double>& x) {
 
 /// The answer of a kind whose points are answered by `model`, with its log in `folder`.
 template <class Kind>
-nlohmann::json answer_of(const LoadedProblem& problem, const typename Kind::Settings& settings, const PointModel& model,
-                         const fs::path& folder) {
-  CommandOptions o;
-  o.scenes = {"toy.toml"};
+auto answer_of(const LoadedProblem& problem, const typename Kind::Settings& settings, const PointModel& model,
+               const fs::path& folder) {
+  DriverOptions o;
+  o.file = "toy.toml";
   o.out = folder / "toy.h5";
   o.quiet = true;
   fs::remove(folder / "toy.jsonl");
@@ -90,8 +90,9 @@ nlohmann::json answer_of(const LoadedProblem& problem, const typename Kind::Sett
   const Kind kind(problem, settings, log);
   throw_problems(log.problems);
   StudyRun run(o, problem, kind.head(), model);
-  const nlohmann::json answer = kind.solve(run);
-  return run.finish(answer);
+  auto answer = kind.solve(run);
+  run.finish(answer, {});
+  return answer;
 }
 
 /// What a kind refuses of a problem, in words.

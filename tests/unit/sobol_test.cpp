@@ -1,6 +1,6 @@
 // Owns the claims about Sobol' indices: known answers, honest intervals, no bias by failures, the same on every run.
 #include "results/store/study_file.h"
-#include "studies/commands.h"
+#include "studies/run_kind.h"
 #include "studies/sobol/sobol_indices.h"
 #include "studies/sobol/sobol_study.h"
 #include "tests/unit/sampled_fixture.h"
@@ -241,14 +241,13 @@ bootstrap = 100
 )");
   std::vector<StudyRecord> records;
   for (const int threads : {1, 2, 2}) {
-    CommandOptions o;
-    o.scenes = {folder / "line.toml"};
+    DriverOptions o;
+    o.file = folder / "line.toml";
     o.out = folder / ("run" + std::to_string(records.size()) + ".h5");
-    o.kind = "sobol";
     o.threads = threads;
     o.quiet = true;
     testing::internal::CaptureStdout();
-    EXPECT_EQ(run_study(o), 0);
+    EXPECT_EQ(run_driver<StudyDriver<SobolStudy>>(o, "study sobol"), 0);
     expect_words(testing::internal::GetCapturedStdout(), {"x1", "x2", "sum"});
     records.push_back(read_study_record(o.out));
     expect_same_history(records.front(), records.back());

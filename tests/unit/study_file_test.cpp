@@ -100,7 +100,7 @@ TEST_F(StudyFile, HasTheNamesAndUnitsOfTheReadme) {
   std::map<std::string, std::string> written;
   collect(Hdf5Source(path().string()), "/", written);
   for (const char* elsewhere : {"/points/quantities/QUANTITY@name", "/answer/KEY@name"}) written.erase(elsewhere);
-  EXPECT_EQ(documented_units("## Study files"), written);
+  EXPECT_EQ(documented_units("study_files.md"), written);
 }
 
 TEST_F(StudyFile, GivesQuantitiesTheirUnitsAndNanWhereAPointIsNotOk) {

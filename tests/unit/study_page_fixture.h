@@ -40,8 +40,8 @@ inline void expect_sound(const std::string& page) {
 /// The page as the command report makes it.
 inline std::string page_of_study(const StudyRecord& record, const std::string& name) {
   std::vector<StudyPage> pages(study_pages().begin(), study_pages().end());
-  pages.push_back(calibrate_page());
-  pages.push_back(optimize_page());
+  pages.push_back(calibration_page());
+  pages.push_back(layout_search_page());
   return study_html(record, name, pages);
 }
 

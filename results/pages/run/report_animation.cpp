@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "results/pages/animation_player.h"
+#include "results/pages/assets.h"
 #include "results/pages/html.h"
 
 namespace beltlife {

@@ -1,9 +1,5 @@
-// The player of recorded frames: see animation_player.h.
-#include "results/pages/animation_player.h"
-
-namespace beltlife {
-
-const char* const animation_player = R"js(
+// Plays the recorded frames of the running belt. Finds its data in #animation-data and its controls by their ids;
+// window.beltlife_animation has play(), pause(), range(index), seek(ms) and state(), for whoever drives it by script.
 (() => {
 'use strict';
 const data = JSON.parse(document.getElementById('animation-data').textContent);
@@ -258,6 +254,3 @@ window.beltlife_animation = {
   state: () => ({range: shown.name, time_ms: time, length_ms: shown.length, playing, slower: slower(),
                  ...moment(shown, time)})};
 })();
-)js";
-
-}  // namespace beltlife

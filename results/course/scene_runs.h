@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "results/course/loaded_scene.h"
+#include "results/course/options.h"
 #include "results/store/results_file.h"
 #include "sim/eval/run_ranges.h"
 #include "sim/eval/summary.h"
@@ -14,7 +15,7 @@ namespace beltlife {
 
 /// Runs all plans with progress on standard error; `wall_s` gets the time that it took, on however many threads.
 std::vector<RunOutcome> run_all(const LoadedScene& scene, const std::vector<RunPlan>& plans,
-                                const CommandOptions& options, double& wall_s);
+                                const RangeOptions& options, double& wall_s);
 std::vector<RunRecord> records_of(std::vector<RunOutcome>&& outcomes);
 
 /// Loads of the complete windows; none of a scene without ranges.
@@ -26,7 +27,7 @@ std::vector<RangeSummary> summaries_of(const LoadedScene& scene, const std::vect
 
 /// The result file, if one is asked for.
 void write_file(const LoadedScene& scene, const std::vector<RunRecord>& records, const Life* life,
-                const CommandOptions& options, const RunExtras& extras = {});
+                const CommonOptions& options, const RunExtras& extras = {});
 
 /// Of ranges that may end early, how each ended: a line each.
 std::string settling_lines(const LoadedScene& scene, const std::vector<RunRecord>& records);

@@ -1,5 +1,5 @@
 // Running a scene and what follows from it: see scene_runs.h.
-#include "results/commands/scene_runs.h"
+#include "results/course/scene_runs.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ void refuse_long_step(const LoadedScene& l) {
 
 }  // namespace
 
-std::vector<RunOutcome> run_all(const LoadedScene& l, const std::vector<RunPlan>& plans, const CommandOptions& o,
+std::vector<RunOutcome> run_all(const LoadedScene& l, const std::vector<RunPlan>& plans, const RangeOptions& o,
                                 double& wall_s) {
   if (!o.force) refuse_long_step(l);
   if (l.measured) warn_of_speed(plans, l.file.scene);
@@ -78,15 +78,15 @@ Life life_of(const LoadedScene& l, const std::vector<RangeLoad>& loads, const st
   return life;
 }
 
-void write_file(const LoadedScene& l, const std::vector<RunRecord>& records, const Life* life, const CommandOptions& o,
+void write_file(const LoadedScene& l, const std::vector<RunRecord>& records, const Life* life, const CommonOptions& o,
                 const RunExtras& extras) {
   if (l.out.empty()) return;
-  const Provenance from{o.version,
-                        o.command_line,
+  const Provenance from{o.program.version,
+                        o.program.command_line,
                         l.file.path.string(),
                         write_scene(l.file.scene),
-                        o.compiler,
-                        o.revision,
+                        o.program.compiler,
+                        o.program.revision,
                         std::string(enum_name(l.file.scene.solver.scheme)),
                         l.model.belt.nodes};
   write_results(l.out, from, records, life, l.solved ? &*l.solved : nullptr, extras);
