@@ -1,7 +1,10 @@
 # What is installed of the program: command, scenes, examples, documents; and the Debian packages that CPack makes of
 # everything (cpack -G DEB in the build folder). Included by CMakeLists.txt behind sim/install.cmake.
 set(data_dir ${CMAKE_INSTALL_DATADIR}/beltlife)
+file(RELATIVE_PATH module_dir ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/beltlife)
+set_target_properties(beltlife PROPERTIES INSTALL_RPATH "$ORIGIN/${module_dir}")
 install(TARGETS beltlife RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(TARGETS beltlife_openturns LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/beltlife COMPONENT program)
 
 # Study files name their scenes by paths between the folders of this tree, so the examples keep its shape: they work
 # where they are, and so does a copy of the folder, which is where results can be written.

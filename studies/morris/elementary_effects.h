@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "studies/openturns/openturns_inputs.h"
+#include "studies/sample.h"
 
 namespace beltlife {
 

@@ -1,4 +1,4 @@
-// Owns surrogates: functions fitted to a sample, with how well they foretell points that they have not seen.
+// Owns surrogates: functions fitted to a sample, with how well they predict points that they have not seen.
 #pragma once
 
 #include <functional>

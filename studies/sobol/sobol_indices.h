@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "studies/openturns/openturns_inputs.h"
+#include "studies/sample.h"
 
 namespace beltlife {
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +13,6 @@
 
 namespace beltlife {
 namespace {
-
-SpecPath correlation_path(std::size_t i, const char* key) {
-  return SpecPath{}.child("study").child("correlation").element(i).child(key);
-}
 
 nlohmann::json json_of(const Bounds& b) {
   const auto end = [](std::optional<double> v) { return v ? nlohmann::json(*v) : nlohmann::json(); };
@@ -57,57 +52,7 @@ std::vector<std::string> UncertaintyStudy::quantities(const Model& m) { return l
 UncertaintyStudy::UncertaintyStudy(const LoadedProblem& problem, const UncertaintySettings& settings, ReadLog& log)
     : problem_(problem), settings_(settings) {
   check_scatter(problem.spec, log);
-  const std::vector<std::string> paths = problem.spec.paths();
-  const auto count = static_cast<Eigen::Index>(paths.size());
-  struct Pair {
-    std::size_t entry;
-    Eigen::Index a, b;
-  };
-  std::vector<Pair> pairs;
-  if (!settings.correlation.empty()) correlation_ = Eigen::MatrixXd::Identity(count, count);
-  for (std::size_t i = 0; i < settings.correlation.size(); ++i) {
-    const CorrelationSpec& c = settings.correlation[i];
-    const auto refuse = [&](const char* key, const std::string& what, const std::string& allowed) {
-      const SpecPath path = correlation_path(i, key);
-      log.add(path, log.line(path.place), what, allowed);
-    };
-    std::vector<Eigen::Index> at;
-    for (const std::string& path : c.between) {
-      const auto found = std::find(paths.begin(), paths.end(), path);
-      if (found == paths.end()) {
-        refuse("between", "no parameter '" + path + "'" + did_you_mean(path, paths), joined(paths));
-        break;
-      }
-      at.push_back(found - paths.begin());
-    }
-    if (at.size() < c.between.size()) continue;
-    if (at.size() != 2 || at[0] == at[1]) {
-      refuse("between", fmt::format("names {} where a correlation is between two", at.size() == 2 ? "one" : "not two"),
-             "paths of two parameters");
-      continue;
-    }
-    if (std::any_of(pairs.begin(), pairs.end(),
-                    [&](const Pair& p) { return (p.a == at[0] && p.b == at[1]) || (p.a == at[1] && p.b == at[0]); })) {
-      refuse("between", "stands in an earlier correlation already", "each pair once");
-      continue;
-    }
-    correlation_(at[0], at[1]) = correlation_(at[1], at[0]) = c.value;
-    pairs.push_back({i, at[0], at[1]});
-  }
-  if (pairs.empty()) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation_);
-  if (eigen.eigenvalues()(0) > 1e-10) return;
-  // The one that takes most from the variance of the combination that would have none, or less.
-  const Eigen::VectorXd v = eigen.eigenvectors().col(0);
-  const auto part = [&](const Pair& p) { return v(p.a) * v(p.b) * correlation_(p.a, p.b); };
-  const Pair& worst =
-      *std::min_element(pairs.begin(), pairs.end(), [&](const Pair& p, const Pair& q) { return part(p) < part(q); });
-  const SpecPath path = correlation_path(worst.entry, "value");
-  log.add(path, log.line(path.place),
-          fmt::format("{} cannot hold beside the other correlations (0 where none is given): their matrix is not "
-                      "positive definite, its smallest eigenvalue {:.2g}",
-                      correlation_(worst.a, worst.b), eigen.eigenvalues()(0)),
-          "correlations that can hold together");
+  correlation_ = correlation_of(settings.correlation, problem.spec.paths(), log);
 }
 
 StudyHead UncertaintyStudy::head() const { return sampled_head(problem_); }

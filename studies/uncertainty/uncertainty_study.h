@@ -2,21 +2,10 @@
 #pragma once
 
 #include "results/course/study_run.h"
-#include "studies/openturns/openturns_inputs.h"
+#include "studies/sample.h"
+#include "studies/uncertainty/correlation.h"
 
 namespace beltlife {
-
-struct CorrelationSpec {
-  std::vector<std::string> between;
-  double value = 0;
-
-  template <class V>
-  void visit(V& v) {
-    v("between", between, required_text, "paths of two parameters");
-    v("value", value, required(within(-1, 1)),
-      "correlation of the normal scores behind them (normal copula); of two normal parameters their own");
-  }
-};
 
 struct UncertaintySettings {
   int samples = 256;
@@ -55,7 +44,7 @@ class UncertaintyStudy {
 
   LoadedProblem problem_;
   UncertaintySettings settings_;
-  Eigen::MatrixXd correlation_;  ///< empty: independent
+  Rows correlation_;  ///< empty: independent
 };
 
 }  // namespace beltlife

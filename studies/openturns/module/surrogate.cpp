@@ -1,6 +1,4 @@
-// Surrogates, by OpenTURNS: see openturns_surrogate.h.
-#include "studies/openturns/openturns_surrogate.h"
-
+// Surrogates, by OpenTURNS: see ../openturns_surrogate.h.
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
@@ -19,10 +17,10 @@
 #include <openturns/MaternModel.hxx>
 #include <openturns/OrthogonalProductPolynomialFactory.hxx>
 
-#include "studies/openturns/openturns_margins.h"
+#include "studies/openturns/module/margins.h"
 #include "studies/uncertainty/order_statistics.h"
 
-namespace beltlife {
+namespace beltlife::openturns {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -110,14 +108,8 @@ Eigen::VectorXd errors_left_out(const OT::CovarianceModel& model, const OT::Samp
 
 }  // namespace
 
-double chaos_terms(std::size_t parameters, int degree) {
-  double terms = 1;
-  for (int k = 1; k <= degree; ++k) terms *= (static_cast<double>(parameters) + k) / k;
-  return std::round(terms);
-}
-
-Surrogate chaos_surrogate(const std::vector<ParameterSpec>& parameters, const Rows& at,
-                          const std::vector<double>& values, int degree) {
+Surrogate chaos(const std::vector<ParameterSpec>& parameters, const Rows& at, const std::vector<double>& values,
+                int degree) {
   begin_openturns(0);
   const Moments m = moments_of(values);
   if (!varies(m)) return constant(m.mean);
@@ -173,8 +165,7 @@ Surrogate chaos_surrogate(const std::vector<ParameterSpec>& parameters, const Ro
   return s;
 }
 
-Surrogate kriging_surrogate(const std::vector<ParameterSpec>& parameters, const Rows& at,
-                            const std::vector<double>& values) {
+Surrogate kriging(const std::vector<ParameterSpec>& parameters, const Rows& at, const std::vector<double>& values) {
   begin_openturns(0);
   const Moments m = moments_of(values);
   if (!varies(m)) return constant(m.mean);
@@ -202,4 +193,4 @@ Surrogate kriging_surrogate(const std::vector<ParameterSpec>& parameters, const 
   return best;
 }
 
-}  // namespace beltlife
+}  // namespace beltlife::openturns

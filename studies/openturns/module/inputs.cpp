@@ -1,6 +1,4 @@
-// Distributions and designs, by OpenTURNS: see openturns_inputs.h.
-#include "studies/openturns/openturns_inputs.h"
-
+// The module's entry, and distributions and designs by OpenTURNS: see ../openturns_inputs.h.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -16,9 +14,9 @@
 #include <openturns/TruncatedDistribution.hxx>
 #include <openturns/Uniform.hxx>
 
-#include "studies/openturns/openturns_margins.h"
+#include "studies/openturns/module/margins.h"
 
-namespace beltlife {
+namespace beltlife::openturns {
 namespace {
 
 /// Off the faces of the cube, where quantiles are infinite.
@@ -38,12 +36,26 @@ OT::Distribution cut_off(const OT::Distribution& whole, std::optional<double> lo
   return whole;
 }
 
-}  // namespace
+class JointMargins : public Inputs::Margins {
+ public:
+  JointMargins(const std::vector<ParameterSpec>& parameters, const Rows& correlation) : parameters_(parameters) {
+    for (const ParameterSpec& p : parameters) all_.push_back(margin_of(p));
+    const auto n = static_cast<Eigen::Index>(correlation.size());
+    Eigen::MatrixXd matrix(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        matrix(i, j) = correlation[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    if (n > 0 && !matrix.isIdentity(0)) root_ = matrix.llt().matrixL();
+  }
+  Rows at(const Rows& unit) const override;
 
-struct Inputs::Margins {
-  std::vector<Margin> all;
-  std::vector<ParameterSpec> parameters;
+ private:
+  std::vector<Margin> all_;
+  std::vector<ParameterSpec> parameters_;
+  Eigen::MatrixXd root_;  ///< lower Cholesky factor of the correlation; empty: independent
 };
+
+}  // namespace
 
 void begin_openturns(std::int64_t seed) {
   OT::TBB::Disable();             // threads are for evaluations
@@ -75,7 +87,7 @@ Margin margin_of(const ParameterSpec& p) {
   return {cut_off(whole, logarithm(p.lower), logarithm(p.upper)), true};
 }
 
-Rows unit_design(SamplingMethod method, std::size_t rows, std::size_t columns, std::int64_t seed) {
+Rows design(SamplingMethod method, std::size_t rows, std::size_t columns, std::int64_t seed) {
   begin_openturns(seed);
   if (method == SamplingMethod::lhs) {
     const OT::ComposedDistribution cube(OT::ComposedDistribution::DistributionCollection(columns, OT::Uniform(0, 1)));
@@ -93,16 +105,12 @@ Rows unit_design(SamplingMethod method, std::size_t rows, std::size_t columns, s
   return rows_of(sample);
 }
 
-Inputs::Inputs(const std::vector<ParameterSpec>& parameters, const Eigen::MatrixXd& correlation) {
+std::shared_ptr<const Inputs::Margins> margins(const std::vector<ParameterSpec>& parameters, const Rows& correlation) {
   begin_openturns(0);
-  auto margins = std::make_shared<Margins>();
-  margins->parameters = parameters;
-  for (const ParameterSpec& p : parameters) margins->all.push_back(margin_of(p));
-  margins_ = std::move(margins);
-  if (correlation.size() > 0 && !correlation.isIdentity(0)) root_ = correlation.llt().matrixL();
+  return std::make_shared<JointMargins>(parameters, correlation);
 }
 
-Rows Inputs::at(const Rows& unit) const {
+Rows JointMargins::at(const Rows& unit) const {
   Rows rows = unit;
   for (std::vector<double>& row : rows) {
     if (root_.size() > 0) {
@@ -113,8 +121,8 @@ Rows Inputs::at(const Rows& unit) const {
         row[k] = inside(OT::DistFunc::pNormal(scores(static_cast<Eigen::Index>(k))));
     }
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const Margin& margin = margins_->all[k];
-      const ParameterSpec& p = margins_->parameters[k];
+      const Margin& margin = all_[k];
+      const ParameterSpec& p = parameters_[k];
       row[k] = margin.distribution.computeQuantile(row[k])[0];
       if (margin.logarithm) row[k] = std::exp(row[k]);
       // A rounding beyond a bound would be a refused point.
@@ -125,4 +133,9 @@ Rows Inputs::at(const Rows& unit) const {
   return rows;
 }
 
-}  // namespace beltlife
+}  // namespace beltlife::openturns
+
+const beltlife::OpenTurnsModule* beltlife::beltlife_openturns_module() {
+  static constexpr OpenTurnsModule table{openturns::design, openturns::margins, openturns::chaos, openturns::kriging};
+  return &table;
+}
