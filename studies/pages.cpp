@@ -2,7 +2,11 @@
 #include "studies/pages.h"
 
 #include "results/pages/study/study_parts.h"
+#include "studies/morris/morris_page.h"
 #include "studies/noise/noise_page.h"
+#include "studies/sobol/sobol_page.h"
+#include "studies/surrogate/surrogate_page.h"
+#include "studies/uncertainty/uncertainty_page.h"
 
 namespace beltlife {
 namespace {
@@ -16,15 +20,15 @@ constexpr StudyPage pages[] = {
      stability_part, false, "Bisection needs points on both sides of the longest stable step: many diverge by design."},
     {"study oat", "One change at a time", "what single changes do, beside what was said of them", oat_part, false,
      "A side that failed at some crank phases is judged by the others."},
-    {"study morris", "Elementary effects", "which parameters matter at all", morris_part, true,
-     "An effect needs both its points; those without are left out of the means."},
-    {"study sobol", "Sobol indices", "which share of the variance is whose", sobol_part, true,
+    {"study morris", "Elementary effects", "which parameters matter at all", typed_part<MorrisAnswer, morris_part>,
+     true, "An effect needs both its points; those without are left out of the means."},
+    {"study sobol", "Sobol indices", "which share of the variance is whose", typed_part<SobolAnswer, sobol_part>, true,
      "A base row with a failed point is left out whole. If failures favour some values, the indices are those of what "
      "did not fail."},
-    {"study surrogate", "Surrogate", "which share of the variance is whose, by a model learnt from the points",
-     surrogate_part, true, "The surrogate has learnt nothing of what failed."},
+    {"study surrogate", "Surrogate", "which share of the variance is whose, by a function fitted to the points",
+     typed_part<SurrogateAnswer, surrogate_part>, true, "The surrogate is fitted to none of them."},
     {"study uncertainty", "Uncertainty", "how far quantities scatter with the scatter of the parameters",
-     uncertainty_part, true, "They are missing from every percentile and share."},
+     typed_part<UncertaintyAnswer, uncertainty_part>, true, "They are missing from every percentile and share."},
 };
 
 }  // namespace

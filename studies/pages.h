@@ -13,9 +13,5 @@ std::span<const StudyPage> study_pages();
 StudyPart convergence_part(const StudyRecord& record);
 StudyPart stability_part(const StudyRecord& record);
 StudyPart oat_part(const StudyRecord& record);
-StudyPart morris_part(const StudyRecord& record);
-StudyPart sobol_part(const StudyRecord& record);
-StudyPart surrogate_part(const StudyRecord& record);
-StudyPart uncertainty_part(const StudyRecord& record);
 
 }  // namespace beltlife

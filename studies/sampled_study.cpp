@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "results/text/print.h"
 #include "sim/eval/quantity_unit.h"
 
 namespace beltlife {
@@ -73,12 +73,8 @@ Rows whole_groups(const std::vector<Answer>& answers, std::size_t size, std::siz
   return rows;
 }
 
-nlohmann::json json_of_estimate(double value, double low, double high) {
-  return {{"value", finite(value)}, {"low", finite(low)}, {"high", finite(high)}};
-}
-
-std::string cell(const nlohmann::json& number, int digits) {
-  return number.is_null() ? "-" : fmt::format("{:.{}g}", number.get<double>(), digits);
+std::string cell(double number, int digits) {
+  return std::isfinite(number) ? fmt::format("{:.{}g}", number, digits) : "-";
 }
 
 std::string in_unit(const std::string& quantity) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "results/course/study_run.h"
-#include "studies/openturns/openturns_inputs.h"
+#include "studies/sample.h"
 
 namespace beltlife {
 
@@ -22,11 +22,8 @@ std::vector<Point> points_of(const Rows& rows);
 /// Values of one quantity where all points of a group are ok, a row a group of `size` points that follow each other.
 Rows whole_groups(const std::vector<Answer>& answers, std::size_t size, std::size_t quantity);
 
-/// {"value", "low", "high"}, null for NaN.
-nlohmann::json json_of_estimate(double value, double low, double high);
-
-/// A number of an answer in `digits` digits, "-" for null.
-std::string cell(const nlohmann::json& number, int digits);
+/// A number of an answer in `digits` digits, "-" where it is not known.
+std::string cell(double number, int digits);
 
 /// " in UNIT" by the name of a quantity, empty if it has none.
 std::string in_unit(const std::string& quantity);

@@ -1,4 +1,6 @@
 // The part of a page that is of elementary effects: their sizes, and sizes against scatter; see study_parts.h.
+#include "studies/morris/morris_page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,41 +9,37 @@
 #include "results/pages/study/study_charts.h"
 #include "results/pages/study/study_parts.h"
 #include "sim/eval/quantity_unit.h"
-#include "studies/pages.h"
 
 namespace beltlife {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t most_charts = 12, told_quantities = 4;
 constexpr double worth_a_name = 0.03;  // of the largest: names of lesser ones would lie upon each other
 
-struct Effects {
+/// What a parameter does, with its name.
+struct Effects : ParameterEffects {
   std::string name;
-  double mu = NAN, mu_star = NAN, sigma = NAN, error = NAN, used = NAN, floor = NAN;
-  bool within_noise = false;
+
+  bool is_noise() const { return within_noise.value_or(false); }
 };
 
 /// Largest first; what has no number comes last.
-std::vector<Effects> effects_of(const StudyRecord& record, const std::string& quantity) {
+std::vector<Effects> effects_of(const StudyRecord& record, const MorrisAnswer& answer, const std::string& quantity) {
   std::vector<Effects> all;
-  const json& j = part_of(part_of(record.answer, "quantities"), quantity);
+  const auto found = answer.quantities.find(quantity);
+  if (found == answer.quantities.end()) return all;
   for (const std::string& name : record.head.parameters)
-    if (const json& e = part_of(j, name); e.is_object())
-      all.push_back({name, number_in(e, "mu"), number_in(e, "mu_star"), number_in(e, "sigma"),
-                     number_in(e, "mu_star_error"), number_in(e, "effects"), number_in(e, "noise_floor"),
-                     flag_in(e, "within_noise")});
+    if (const auto e = found->second.find(name); e != found->second.end()) all.push_back({e->second, name});
   const auto size = [](const Effects& e) { return std::isfinite(e.mu_star) ? e.mu_star : -1; };
   std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return size(a) > size(b); });
   return all;
 }
 
-std::string lead_of(const StudyRecord& record) {
-  std::string words = error_words(record.answer);
+std::string lead_of(const StudyRecord& record, const MorrisAnswer& answer) {
+  std::string words = error_words(answer);
   std::size_t told = 0;
   for (const std::string& q : record.head.quantities) {
-    const std::vector<Effects> all = effects_of(record, q);
+    const std::vector<Effects> all = effects_of(record, answer, q);
     if (all.empty() || !(all[0].mu_star > 0)) continue;
     if (told++ == told_quantities) break;
     const std::string unit = unit_of_name(q);
@@ -49,7 +47,7 @@ std::string lead_of(const StudyRecord& record) {
                          html_escaped(all[0].name), digits_text(all[0].mu_star), unit.empty() ? "" : " " + unit);
     if (all.size() > 1 && all[1].mu_star > 0)
       words += fmt::format(", then {} ({})", html_escaped(all[1].name), digits_text(all[1].mu_star));
-    const auto noise = std::count_if(all.begin(), all.end(), [](const Effects& e) { return e.within_noise; });
+    const auto noise = std::count_if(all.begin(), all.end(), [](const Effects& e) { return e.is_noise(); });
     if (noise > 0) words += fmt::format("; {} of {} do no more than noise", noise, all.size());
     words += ". ";
   }
@@ -57,23 +55,23 @@ std::string lead_of(const StudyRecord& record) {
 }
 
 std::string table_of(const std::string& id, const std::string& quantity, const std::vector<Effects>& all,
-                     double trajectories) {
+                     int trajectories) {
   const std::string unit = unit_of_name(quantity).empty() ? "" : ", " + unit_of_name(quantity);
-  const bool floor = std::any_of(all.begin(), all.end(), [](const Effects& e) { return std::isfinite(e.floor); });
+  const bool floor = std::any_of(all.begin(), all.end(), [](const Effects& e) { return e.noise_floor.has_value(); });
   Row header{"parameter", "μ*" + unit, "its error", "μ" + unit, "σ" + unit, "σ/μ*", "effects"};
   if (floor) header.insert(header.end(), {"of noise", "verdict"});
   std::vector<Row> rows;
   for (const Effects& e : all) {
     Row row{e.name,
             digits_text(e.mu_star, 4),
-            digits_text(e.error, 2),
+            digits_text(e.mu_star_error, 2),
             digits_text(e.mu, 4),
             digits_text(e.sigma, 4),
-            e.mu_star > 0 ? digits_text(e.sigma / e.mu_star, 2) : "-",
-            Cell(digits_text(e.used, 6), e.used < trajectories)};
+            e.mu_star > 0 ? digits_text(e.sigma / e.mu_star, 2) : "no effect",
+            Cell(std::to_string(e.effects), e.effects < trajectories)};
     if (floor) {
-      row.push_back(digits_text(e.floor, 2));
-      row.push_back(!std::isfinite(e.floor) ? "-" : e.within_noise ? "no more than noise" : "above noise");
+      row.push_back(e.noise_floor ? digits_text(*e.noise_floor, 2) : "no effect is left");
+      row.push_back(!e.noise_floor ? "none" : e.is_noise() ? "no more than noise" : "above noise");
     }
     rows.push_back(std::move(row));
   }
@@ -101,7 +99,7 @@ std::string plane_of(const std::string& id, const std::string& quantity, const s
   const std::string unit = unit_of_name(quantity).empty() ? "" : ", " + unit_of_name(quantity);
   MarkedChart chart{id, "", "μ*" + unit, "σ" + unit};
   MarkedChart::Series marks, noise, equal;
-  const bool marked = std::any_of(all.begin(), all.end(), [](const Effects& e) { return e.within_noise; });
+  const bool marked = std::any_of(all.begin(), all.end(), [](const Effects& e) { return e.is_noise(); });
   if (marked) marks.label = "above noise", noise.label = "no more than noise";
   marks.colour = safe_colour(0), noise.colour = "#888888", equal.colour = "#666666";
   noise.mark = 6;
@@ -109,7 +107,7 @@ std::string plane_of(const std::string& id, const std::string& quantity, const s
   const std::vector<std::string> names = names_of(all);
   double x = 0, y = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    MarkedChart::Series& s = all[i].within_noise ? noise : marks;
+    MarkedChart::Series& s = all[i].is_noise() ? noise : marks;
     s.x.push_back(all[i].mu_star);
     s.y.push_back(all[i].sigma);
     s.names.push_back(names[i]);
@@ -126,17 +124,17 @@ std::string plane_of(const std::string& id, const std::string& quantity, const s
 
 }  // namespace
 
-StudyPart morris_part(const StudyRecord& record) {
+StudyPart morris_part(const StudyRecord& record, const MorrisAnswer& answer) {
   StudyPart part;
-  part.lead = lead_of(record);
-  const double trajectories = number_in(record.answer, "trajectories");
+  part.lead = lead_of(record, answer);
+  const int trajectories = answer.trajectories;
   part.key_numbers = {{"parameters", std::to_string(record.head.parameters.size())},
-                      {"trajectories", digits_text(trajectories, 6)},
-                      {"levels", digits_text(number_in(record.answer, "levels"), 6)}};
+                      {"trajectories", std::to_string(trajectories)},
+                      {"levels", std::to_string(answer.levels)}};
   std::string html;
   std::size_t index = 0;
   for (const std::string& q : record.head.quantities) {
-    const std::vector<Effects> all = effects_of(record, q);
+    const std::vector<Effects> all = effects_of(record, answer, q);
     if (all.empty()) continue;
     html += fmt::format("<h3>{}</h3>\n", html_escaped(q));
     if (index < most_charts)

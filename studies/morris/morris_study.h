@@ -4,6 +4,7 @@
 #include <map>
 
 #include "results/course/study_run.h"
+#include "studies/morris/morris_answer.h"
 
 namespace beltlife {
 
@@ -30,12 +31,13 @@ struct MorrisSettings {
 class MorrisStudy {
  public:
   using Settings = MorrisSettings;
+  using Result = MorrisAnswer;
   static std::vector<std::string> quantities(const Model& model);
   MorrisStudy(const LoadedProblem& problem, const MorrisSettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  MorrisAnswer solve(StudyRun& run) const;
+  static std::string text(const MorrisAnswer& answer);
 
  private:
   void read_noise(ReadLog& log);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "results/answer/estimate.h"
 #include "studies/sample.h"
 
 namespace beltlife {
@@ -11,12 +12,6 @@ namespace beltlife {
 /// Rows of the design of Saltelli et al. (Comput. Phys. Commun. 181, 2010) from rows of 2d columns, whose halves are A
 /// and B: of each base row A, B, then A with column i of B, for i = 1 to d.
 Rows saltelli_rows(const Rows& base);
-
-/// A number and the ends of its confidence interval; NaN where there is none.
-struct Estimate {
-  double value = 0, low = 0, high = 0;
-  double width() const { return high - low; }
-};
 
 struct SobolIndices {
   double mean = 0, variance = 0;       ///< of the quantity, over A and B

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "results/course/study_run.h"
-#include "studies/openturns/openturns_inputs.h"
+#include "studies/sample.h"
+#include "studies/sobol/sobol_answer.h"
 
 namespace beltlife {
 
@@ -31,12 +32,13 @@ struct SobolSettings {
 class SobolStudy {
  public:
   using Settings = SobolSettings;
+  using Result = SobolAnswer;
   static std::vector<std::string> quantities(const Model& model);
   SobolStudy(const LoadedProblem& problem, const SobolSettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  SobolAnswer solve(StudyRun& run) const;
+  static std::string text(const SobolAnswer& answer);
 
  private:
   LoadedProblem problem_;

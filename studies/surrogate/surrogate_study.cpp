@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "results/text/print.h"
 #include "results/text/table.h"
 #include "studies/sampled_study.h"
@@ -50,7 +52,7 @@ SurrogateStudy::SurrogateStudy(const LoadedProblem& problem, const SurrogateSett
 StudyHead SurrogateStudy::head() const { return sampled_head(problem_); }
 PointModel SurrogateStudy::model(int threads) const { return sampled_model(problem_, threads); }
 
-nlohmann::json SurrogateStudy::solve(StudyRun& run) const {
+SurrogateAnswer SurrogateStudy::solve(StudyRun& run) const {
   const std::vector<ParameterSpec>& parameters = problem_.spec.parameter;
   const std::vector<std::string> paths = problem_.spec.paths();
   const bool chaos = settings_.method == SurrogateMethod::chaos;
@@ -64,13 +66,13 @@ nlohmann::json SurrogateStudy::solve(StudyRun& run) const {
   Rows at;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i)
     if (answers[i].ok()) at.push_back(rows[i]);
-  nlohmann::json answer;
-  answer["parameters"] = paths;
-  answer["method"] = enum_name(settings_.method);
-  answer["samples"] = settings_.samples;
-  answer["samples_used"] = at.size();
+  SurrogateAnswer answer;
+  answer.parameters = paths;
+  answer.method = enum_name(settings_.method);
+  answer.samples = settings_.samples;
+  answer.samples_used = std::ssize(at);
   if (at.size() < few_points) {
-    answer["error"] = fmt::format("only {} of {} points are ok: nothing to learn from", at.size(), settings_.samples);
+    answer.error = fmt::format("only {} of {} points are ok: too few to fit to", at.size(), settings_.samples);
     return answer;
   }
   for (std::size_t q = 0; q < problem_.spec.quantities.size(); ++q) {
@@ -80,37 +82,36 @@ nlohmann::json SurrogateStudy::solve(StudyRun& run) const {
     Surrogate s =
         chaos ? chaos_surrogate(parameters, at, values, settings_.degree) : kriging_surrogate(parameters, at, values);
     if (s.first.empty()) add_sampled_indices(s, parameters, settings_.seed);
-    nlohmann::json j{{"q2", finite(s.q2)}, {"usable", s.q2 >= usable_q2}, {"terms", s.terms}};
+    QuantitySurrogate& found = answer.quantities[problem_.spec.quantities[q]];
+    found.q2 = s.q2;
+    found.usable = s.q2 >= usable_q2;
+    found.terms = static_cast<std::int64_t>(s.terms);
     for (std::size_t p = 0; p < paths.size(); ++p) {
-      j["first"][paths[p]] = finite(s.first[p]);
-      j["total"][paths[p]] = finite(s.total[p]);
+      found.first[paths[p]] = s.first[p];
+      found.total[paths[p]] = s.total[p];
     }
-    j["nominal"]["predicted"] = finite(s.predict(nominal));
-    j["nominal"]["simulated"] = answers.back().ok() ? nlohmann::json(answers.back().values[q]) : nlohmann::json();
-    answer["quantities"][problem_.spec.quantities[q]] = std::move(j);
+    found.nominal.predicted = s.predict(nominal);
+    if (answers.back().ok()) found.nominal.simulated = answers.back().values[q];
   }
   return answer;
 }
 
-std::string SurrogateStudy::text(const nlohmann::json& answer) {
-  if (answer.contains("error")) return answer["error"].get<std::string>() + "\n";
-  const std::vector<std::string> paths = answer["parameters"];
-  const bool chaos = answer["method"] == "chaos";
+std::string SurrogateStudy::text(const SurrogateAnswer& answer) {
+  if (answer.error) return *answer.error + "\n";
   std::string words = fmt::format(
-      "{}, learnt from {} of {} points; Q2: share of the variance foretold at points left out in turn.\n",
-      chaos ? "Polynomial chaos" : "Kriging", answer["samples_used"].get<int>(), answer["samples"].get<int>());
-  for (const auto& [name, q] : answer["quantities"].items()) {
-    if (q["q2"].is_null()) {
+      "{}, fitted to {} of {} points; Q2: share of the variance that is predicted at points left out in turn.\n",
+      answer.method == "chaos" ? "Polynomial chaos" : "Kriging", answer.samples_used, answer.samples);
+  const auto number = [](double v) { return std::isfinite(v) ? fixed_text(v, 3) : std::string("-"); };
+  for (const auto& [name, q] : answer.quantities) {
+    if (!std::isfinite(q.q2)) {
       words += fmt::format("\n{} does not vary.\n", name);
       continue;
     }
-    words += fmt::format("\n{}: Q2 = {}, {}; {} coefficients.\nNominal point{}: {} foretold, {} simulated.\n\n", name,
-                         fixed_text(q["q2"], 4), q["usable"].get<bool>() ? "usable" : "not usable (below 0.9)",
-                         q["terms"].get<int>(), in_unit(name), cell(q["nominal"]["predicted"], 6),
-                         cell(q["nominal"]["simulated"], 6));
+    words += fmt::format("\n{}: Q2 = {}, {}; {} coefficients.\nNominal point{}: {} predicted, {} simulated.\n\n", name,
+                         fixed_text(q.q2, 4), q.usable ? "usable" : "not usable (below 0.9)", q.terms, in_unit(name),
+                         cell(q.nominal.predicted, 6), cell(q.nominal.simulated, 6));
     Table table({"parameter", "first", "total"});
-    const auto number = [](const nlohmann::json& v) { return v.is_null() ? std::string("-") : fixed_text(v, 3); };
-    for (const std::string& p : paths) table.row({p, number(q["first"][p]), number(q["total"][p])});
+    for (const std::string& p : answer.parameters) table.row({p, number(q.first.at(p)), number(q.total.at(p))});
     words += table.text();
   }
   return words;

@@ -3,6 +3,7 @@
 
 #include "results/course/study_run.h"
 #include "studies/openturns/openturns_surrogate.h"
+#include "studies/surrogate/surrogate_answer.h"
 
 namespace beltlife {
 
@@ -14,7 +15,7 @@ struct SurrogateSettings {
 
   template <class V>
   void visit(V& v) {
-    v("samples", samples, within(8, 20000), "points to learn from");
+    v("samples", samples, within(8, 20000), "points to fit to");
     v("method", method, any_text, "polynomial chaos, or Kriging, which has no degree");
     v("degree", degree, within(1, 20), "of chaos: largest total degree; terms that do not pay are dropped");
     v("seed", seed, within(0, 9e15), "of the points");
@@ -22,16 +23,17 @@ struct SurrogateSettings {
   void check(ReadLog&) const {}
 };
 
-/// Points by a Sobol' sequence, and the nominal one, which is not learnt from.
+/// Points by a Sobol' sequence, and the nominal one, which it is not fitted to.
 class SurrogateStudy {
  public:
   using Settings = SurrogateSettings;
+  using Result = SurrogateAnswer;
   static std::vector<std::string> quantities(const Model& model);
   SurrogateStudy(const LoadedProblem& problem, const SurrogateSettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  SurrogateAnswer solve(StudyRun& run) const;
+  static std::string text(const SurrogateAnswer& answer);
 
  private:
   LoadedProblem problem_;

@@ -1,4 +1,6 @@
 // The part of a page that is of uncertainty: distributions, percentiles, chance to miss a target; see study_parts.h.
+#include "studies/uncertainty/uncertainty_page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,12 +10,9 @@
 #include "results/pages/study/study_charts.h"
 #include "results/pages/study/study_parts.h"
 #include "sim/eval/quantity_unit.h"
-#include "studies/pages.h"
 
 namespace beltlife {
 namespace {
-
-using nlohmann::json;
 
 constexpr std::size_t most_charts = 12, most_steps = 400, told_quantities = 4;
 constexpr double most_bins = 60;
@@ -21,9 +20,9 @@ constexpr double most_bins = 60;
 bool ends_in(const std::string& name, const std::string& last) { return name == last || name.ends_with("." + last); }
 
 /// A quantity as its charts show it: lives in hours on a logarithmic axis, however they are recorded.
-struct Scatter {
+struct ShownScatter {
   std::string name;
-  const json* answer = nullptr;
+  const QuantityScatter* answer = nullptr;
   bool logarithm = false, life = false;
   std::vector<double> values;  ///< of the points that are ok, sorted, as recorded
 
@@ -31,13 +30,17 @@ struct Scatter {
   std::string axis() const { return life ? "life, h" : with_unit(name); }
 };
 
-std::vector<Scatter> scatters_of(const StudyRecord& record) {
-  std::vector<Scatter> all;
+std::vector<ShownScatter> scatters_of(const StudyRecord& record, const UncertaintyAnswer& answer) {
+  std::vector<ShownScatter> all;
   for (std::size_t q = 0; q < record.head.quantities.size(); ++q) {
     const std::string& name = record.head.quantities[q];
-    const json& j = part_of(part_of(record.answer, "quantities"), name);
-    if (!j.is_object()) continue;
-    Scatter s{name, &j, ends_in(name, "log10_life_h"), ends_in(name, "log10_life_h") || ends_in(name, "life_h"), {}};
+    const auto found = answer.quantities.find(name);
+    if (found == answer.quantities.end()) continue;
+    ShownScatter s{name,
+                   &found->second,
+                   ends_in(name, "log10_life_h"),
+                   ends_in(name, "log10_life_h") || ends_in(name, "life_h"),
+                   {}};
     for (const StudyPoint& p : record.points)
       if (p.answer.ok() && q < p.answer.values.size() && std::isfinite(p.answer.values[q]))
         s.values.push_back(p.answer.values[q]);
@@ -48,16 +51,14 @@ std::vector<Scatter> scatters_of(const StudyRecord& record) {
 }
 
 /// Percentiles by size of their names.
-std::vector<std::pair<double, std::string>> percents_of(const json& quantity) {
+std::vector<std::pair<double, std::string>> percents_of(const QuantityScatter& quantity) {
   std::vector<std::pair<double, std::string>> all;
-  const json& given = part_of(quantity, "percentiles");
-  if (given.is_object())
-    for (const auto& [key, value] : given.items()) all.emplace_back(std::strtod(key.c_str(), nullptr), key);
+  for (const auto& [key, value] : quantity.percentiles) all.emplace_back(std::strtod(key.c_str(), nullptr), key);
   std::sort(all.begin(), all.end());
   return all;
 }
 
-std::string unit_text(const Scatter& s) {
+std::string unit_text(const ShownScatter& s) {
   const std::string unit = unit_of_name(s.name);
   return unit.empty() ? "" : " " + html_escaped(unit);
 }
@@ -67,43 +68,39 @@ std::string hours_text(double hours) { return hours >= 1 && hours < 1e7 ? html_r
 
 /// " (95 %: a to b)"; empty where there is no interval.
 template <class Text>
-std::string interval_in_words(const json& interval, double confidence, const Text& text) {
-  const double low = number_in(interval, "low"), high = number_in(interval, "high");
-  if (std::isnan(low) && std::isnan(high)) return "";
-  return fmt::format(" ({} %: {} to {})", digits_text(100 * confidence), text(low), text(high));
+std::string interval_in_words(const Estimate& e, double confidence, const Text& text) {
+  if (std::isnan(e.low) && std::isnan(e.high)) return "";
+  return fmt::format(" ({} %: {} to {})", digits_text(100 * confidence), text(e.low), text(e.high));
 }
 
 std::string share_text(double share) { return digits_text(100 * share); }
 
-std::string lead_of(const json& answer, const std::vector<Scatter>& all) {
+std::string told_of(const UncertaintyAnswer& answer, const ShownScatter& s) {
+  const QuantityScatter& q = *s.answer;
+  const std::string whose = html_escaped(s.name);
+  std::string words;
+  if (q.b10_life_h && q.b10_life_h->value > 0)
+    words += fmt::format("Nine of ten live longer than <strong>{} h</strong>{}: {}. ", hours_text(q.b10_life_h->value),
+                         interval_in_words(*q.b10_life_h, answer.confidence, hours_text), whose);
+  if (q.missing_target && q.missing_target->value >= 0)
+    words += fmt::format("Less than {} h is reached with a probability of <strong>{} %</strong>{}. ",
+                         digits_text(answer.target_life_h.value_or(not_known), 6), share_text(q.missing_target->value),
+                         interval_in_words(*q.missing_target, answer.confidence, share_text));
+  const auto percents = percents_of(q);
+  if (s.life || percents.size() < 2) return words;
+  const auto& [low, low_key] = percents.front();
+  const auto& [high, high_key] = percents.back();
+  return words + fmt::format("{} % of the points have {} between <strong>{}</strong> and <strong>{}</strong>{}. ",
+                             digits_text(high - low), whose, digits_text(q.percentiles.at(low_key), 4),
+                             digits_text(q.percentiles.at(high_key), 4), unit_text(s));
+}
+
+std::string lead_of(const UncertaintyAnswer& answer, const std::vector<ShownScatter>& all) {
   std::string words = error_words(answer);
-  const double confidence = number_in(answer, "confidence");
-  std::size_t told = 0;
-  for (const Scatter& s : all) {
-    const json &b10 = part_of(*s.answer, "b10_life_h"), &missing = part_of(*s.answer, "missing_target");
-    const double nine = number_in(b10, "value"), share = number_in(missing, "value");
-    const auto percents = percents_of(*s.answer);
-    if (told++ == told_quantities) break;
-    const std::string whose = html_escaped(s.name);
-    if (nine > 0)
-      words += fmt::format("Nine of ten live longer than <strong>{} h</strong>{}: {}. ", hours_text(nine),
-                           interval_in_words(b10, confidence, hours_text), whose);
-    if (share >= 0)
-      words += fmt::format("Less than {} h is reached with a probability of <strong>{} %</strong>{}. ",
-                           digits_text(number_in(answer, "target_life_h"), 6), share_text(share),
-                           interval_in_words(missing, confidence, share_text));
-    if (!s.life && percents.size() > 1) {
-      const auto& [low, low_key] = percents.front();
-      const auto& [high, high_key] = percents.back();
-      words += fmt::format("{} % of the points have {} between <strong>{}</strong> and <strong>{}</strong>{}. ",
-                           digits_text(high - low), whose,
-                           digits_text(number_in(part_of(*s.answer, "percentiles"), low_key), 4),
-                           digits_text(number_in(part_of(*s.answer, "percentiles"), high_key), 4), unit_text(s));
-    }
-  }
-  if (const double lost = number_in(answer, "failed_share"); lost > 0)
+  for (std::size_t i = 0; i < std::min(all.size(), told_quantities); ++i) words += told_of(answer, all[i]);
+  if (answer.failed_share > 0)
     words += fmt::format("<span class=\"alarm\">{} % of the points failed</span> and are missing here. ",
-                         percent_text(lost));
+                         percent_text(answer.failed_share));
   return words;
 }
 
@@ -121,14 +118,14 @@ MarkedChart::Series upright(double x, double top, const std::string& label, int 
 }
 
 /// What stands upright in both charts of a life.
-void add_marks(MarkedChart& chart, const Scatter& s, const json& answer, double top) {
+void add_marks(MarkedChart& chart, const ShownScatter& s, const UncertaintyAnswer& answer, double top) {
   if (!s.life) return;
-  const double target = number_in(answer, "target_life_h"), b10 = number_in(part_of(*s.answer, "b10_life_h"), "value");
+  const double target = answer.target_life_h.value_or(0), b10 = s.answer->b10_life_h ? s.answer->b10_life_h->value : 0;
   if (target > 0) chart.series.push_back(upright(target, top, fmt::format("target {} h", digits_text(target, 6)), 1));
   if (b10 > 0) chart.series.push_back(upright(b10, top, "B10", 2));
 }
 
-std::string histogram_of(const std::string& id, const Scatter& s, const json& answer) {
+std::string histogram_of(const std::string& id, const ShownScatter& s, const UncertaintyAnswer& answer) {
   // On the axis as it is drawn: bins of a life are equally wide in its logarithm.
   const bool log = s.life && s.shown(s.values.front()) > 0;
   std::vector<double> axis;
@@ -155,7 +152,7 @@ std::string histogram_of(const std::string& id, const Scatter& s, const json& an
   return svg_of(chart);
 }
 
-std::string exceedance_of(const std::string& id, const Scatter& s, const json& answer) {
+std::string exceedance_of(const std::string& id, const ShownScatter& s, const UncertaintyAnswer& answer) {
   MarkedChart chart{id, "", s.axis(), s.life ? "live longer, %" : "lie above, %",
                     s.life && s.shown(s.values.front()) > 0};
   MarkedChart::Series curve{"", {s.shown(s.values.front())}, {100}};
@@ -171,45 +168,56 @@ std::string exceedance_of(const std::string& id, const Scatter& s, const json& a
   return svg_of(chart);
 }
 
-std::string table_of(const std::string& id, const Scatter& s) {
-  const json& failures = part_of(*s.answer, "percentiles_by_failures");
+std::string hours_interval(const Interval& log10) {
+  return hours_text(std::pow(10, log10.low)) + " to " + hours_text(std::pow(10, log10.high));
+}
+
+std::string table_of(const std::string& id, const ShownScatter& s) {
+  const auto& failures = s.answer->percentiles_by_failures;
   const std::string unit = unit_of_name(s.name).empty() ? "" : ", " + unit_of_name(s.name);
+  const std::string too_few = "too few points";
   Row header{"percentile", "value" + unit, "interval" + unit};
   if (s.logarithm) header.insert(header.end(), {"life, h", "interval, h"});
-  if (failures.is_object()) header.push_back("by failures" + unit);
+  if (failures) header.push_back("by failures" + unit);
+  const auto interval_of = [](const std::map<std::string, Interval>& all, const std::string& key) {
+    const auto at = all.find(key);
+    return at == all.end() ? Interval{} : at->second;
+  };
   std::vector<Row> rows;
   for (const auto& [percent, key] : percents_of(*s.answer)) {
-    const double value = number_in(part_of(*s.answer, "percentiles"), key);
-    const json& interval = part_of(part_of(*s.answer, "percentile_intervals"), key);
-    Row row{key, digits_text(value, 5), interval_text(interval, 5)};
+    const double value = s.answer->percentiles.at(key);
+    const Interval interval = interval_of(s.answer->percentile_intervals, key);
+    const bool none = std::isnan(interval.low) && std::isnan(interval.high);
+    Row row{key, digits_text(value, 5), none ? too_few : interval_text(interval.low, interval.high, 5)};
     if (s.logarithm) {
-      const double low = number_in(interval, "low"), high = number_in(interval, "high");
       row.push_back(hours_text(std::pow(10, value)));
-      row.push_back(std::isnan(low) && std::isnan(high)
-                        ? "-"
-                        : hours_text(std::pow(10, low)) + " to " + hours_text(std::pow(10, high)));
+      row.push_back(none ? too_few : hours_interval(interval));
     }
-    if (failures.is_object()) row.push_back(interval_text(part_of(failures, key), 5));
+    if (failures) {
+      const Interval ends = interval_of(*failures, key);
+      row.push_back(std::isnan(ends.low) && std::isnan(ends.high) ? "anywhere" : interval_text(ends.low, ends.high, 5));
+    }
     rows.push_back(std::move(row));
   }
   return rows.empty() ? "" : html_table(id, header, rows);
 }
 
-std::string quantity_html(const Scatter& s, const json& answer, std::size_t index) {
-  const double confidence = number_in(answer, "confidence");
-  std::string html =
-      fmt::format("<h3>{}</h3>\n<p>Mean {} (standard error {}), standard deviation {}{}.", html_escaped(s.name),
-                  digits_text(number_in(*s.answer, "mean"), 5), digits_text(number_in(*s.answer, "standard_error"), 2),
-                  digits_text(number_in(*s.answer, "standard_deviation")), unit_text(s));
-  if (const json& b10 = part_of(*s.answer, "b10_life_h"); number_in(b10, "value") > 0)
-    html += fmt::format(" B10 life: {} h{}.", hours_text(number_in(b10, "value")),
-                        interval_in_words(b10, confidence, hours_text));
-  if (const json& m = part_of(*s.answer, "missing_target"); number_in(m, "value") >= 0) {
-    html += fmt::format(" Probability of less than {} h: {} %{}", digits_text(number_in(answer, "target_life_h"), 6),
-                        share_text(number_in(m, "value")), interval_in_words(m, confidence, share_text));
-    if (number_in(answer, "failed_share") > 0)
+std::string quantity_html(const ShownScatter& s, const UncertaintyAnswer& answer, std::size_t index) {
+  const QuantityScatter& q = *s.answer;
+  std::string html = fmt::format("<h3>{}</h3>\n<p>Mean {} (standard error {}), standard deviation {}{}.",
+                                 html_escaped(s.name), digits_text(q.mean, 5), digits_text(q.standard_error, 2),
+                                 digits_text(q.standard_deviation), unit_text(s));
+  if (q.b10_life_h && q.b10_life_h->value > 0)
+    html += fmt::format(" B10 life: {} h{}.", hours_text(q.b10_life_h->value),
+                        interval_in_words(*q.b10_life_h, answer.confidence, hours_text));
+  if (q.missing_target && q.missing_target->value >= 0) {
+    const MissedTarget& m = *q.missing_target;
+    html +=
+        fmt::format(" Probability of less than {} h: {} %{}", digits_text(answer.target_life_h.value_or(not_known), 6),
+                    share_text(m.value), interval_in_words(m, answer.confidence, share_text));
+    if (answer.failed_share > 0)
       html += fmt::format("; {} % if every point that failed holds it, {} % if every one misses it",
-                          share_text(number_in(m, "if_failed_hold")), share_text(number_in(m, "if_failed_miss")));
+                          share_text(m.if_failed_hold), share_text(m.if_failed_miss));
     html += ".";
   }
   html += "</p>\n";
@@ -223,22 +231,21 @@ std::string quantity_html(const Scatter& s, const json& answer, std::size_t inde
 
 }  // namespace
 
-StudyPart uncertainty_part(const StudyRecord& record) {
-  const std::vector<Scatter> all = scatters_of(record);
+StudyPart uncertainty_part(const StudyRecord& record, const UncertaintyAnswer& answer) {
+  const std::vector<ShownScatter> all = scatters_of(record, answer);
   StudyPart part;
-  part.lead = lead_of(record.answer, all);
-  part.key_numbers = {{"samples", digits_text(number_in(record.answer, "samples"), 9)},
-                      {"confidence, %", digits_text(100 * number_in(record.answer, "confidence"))}};
-  if (const double target = number_in(record.answer, "target_life_h"); target > 0)
-    part.key_numbers.push_back({"target, h", digits_text(target, 6)});
+  part.lead = lead_of(answer, all);
+  part.key_numbers = {{"samples", std::to_string(answer.samples)},
+                      {"confidence, %", digits_text(100 * answer.confidence)}};
+  if (answer.target_life_h) part.key_numbers.push_back({"target, h", digits_text(*answer.target_life_h, 6)});
   if (all.empty()) return part;
   std::string html =
       "<section id=\"scatter\"><h2>Scatter by quantity</h2>\n<p>Histograms count the points; the curves beside them "
       "say how many lie above. Intervals of percentiles are by order statistics, that of a probability is Wilson's.";
-  if (number_in(record.answer, "failed_share") > 0)
+  if (answer.failed_share > 0)
     html += " By failures: where a percentile would be if all points that failed lay below, or all above, the rest.";
   html += "</p>\n";
-  for (std::size_t i = 0; i < all.size(); ++i) html += quantity_html(all[i], record.answer, i);
+  for (std::size_t i = 0; i < all.size(); ++i) html += quantity_html(all[i], answer, i);
   part.sections.push_back({"scatter", "Scatter", html + "</section>\n"});
   return part;
 }

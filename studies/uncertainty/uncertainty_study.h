@@ -4,6 +4,7 @@
 #include "results/course/study_run.h"
 #include "studies/sample.h"
 #include "studies/uncertainty/correlation.h"
+#include "studies/uncertainty/uncertainty_answer.h"
 
 namespace beltlife {
 
@@ -32,15 +33,16 @@ struct UncertaintySettings {
 class UncertaintyStudy {
  public:
   using Settings = UncertaintySettings;
+  using Result = UncertaintyAnswer;
   static std::vector<std::string> quantities(const Model& model);
   UncertaintyStudy(const LoadedProblem& problem, const UncertaintySettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  UncertaintyAnswer solve(StudyRun& run) const;
+  static std::string text(const UncertaintyAnswer& answer);
 
  private:
-  nlohmann::json scatter(const std::string& quantity, std::vector<double> values, std::size_t failed) const;
+  QuantityScatter scatter(const std::string& quantity, std::vector<double> values, std::size_t failed) const;
 
   LoadedProblem problem_;
   UncertaintySettings settings_;

@@ -83,7 +83,10 @@ std::string duration_text(double seconds) {
 }
 
 std::string interval_text(const json& interval, int digits) {
-  const double low = number_in(interval, "low"), high = number_in(interval, "high");
+  return interval_text(number_in(interval, "low"), number_in(interval, "high"), digits);
+}
+
+std::string interval_text(double low, double high, int digits) {
   if (std::isnan(low) && std::isnan(high)) return "-";
   return digits_text(low, digits) + " to " + digits_text(high, digits);
 }

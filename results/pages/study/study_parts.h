@@ -52,6 +52,7 @@ std::string percent_text(double share, int digits = 2);
 std::string duration_text(double seconds);
 /// "0.1 to 0.3", "-" where an end is missing.
 std::string interval_text(const nlohmann::json& interval, int digits = 3);
+std::string interval_text(double low, double high, int digits = 3);
 /// "torque_n_m, N m"; the name alone if it states no unit.
 std::string with_unit(const std::string& name);
 std::string setting_text(const Setting& setting);
