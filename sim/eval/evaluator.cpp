@@ -15,14 +15,24 @@
 #include "sim/eval/settling.h"
 #include "sim/lanes/run_pack.h"
 #include "sim/life/loads.h"
+#include "sim/range_models.h"
+#include "sim/scene/spec_writer.h"
 
 namespace beltlife {
 namespace {
 
+/// A drive in the conditions of its ranges, at an address that lasts.
+struct Drive {
+  explicit Drive(const SceneSpec& scene) : built(compile(scene)), models(built) {}
+  Drive(const Drive&) = delete;
+  Model built;
+  RangeModels models;
+};
+
 /// One range of one drive that is not in the memo.
 struct Task {
   std::string key;
-  std::shared_ptr<const Model> model;
+  std::shared_ptr<const Model> model;  ///< in the range's condition
   RunPlan plan;
   std::shared_ptr<RangeResult> result;
   std::vector<std::size_t> points;  ///< that wait for it
@@ -80,14 +90,16 @@ double processor_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-std::string over_budget(const Model& model, const std::vector<RunPlan>& plans, std::optional<double> budget) {
+std::string over_budget(const RangeModels& models, const std::vector<RunPlan>& plans, std::optional<double> budget) {
   if (!budget) return "";
-  for (const RunPlan& plan : plans)
+  for (const RunPlan& plan : plans) {
+    const Model& model = models.of(plan.condition);
     if (const double steps = plan.end_s / run_step(model) * (model.scene.solver.scheme == Scheme::thesis ? 2 : 1);
         steps > *budget)
       return fmt::format(
           "range {} needs {:.3g} force evaluations at its step of {:.3g} s, more than the budget of {:.3g}", plan.name,
           steps, run_step(model), *budget);
+  }
   return "";
 }
 
@@ -95,7 +107,7 @@ std::string over_budget(const Model& model, const std::vector<RunPlan>& plans, s
 RangeResult retry(const Task& t, const EvaluatorOptions& o) {
   SceneSpec scene = t.model->scene;
   scene.solver.step_s = 0.5 * run_step(*t.model);
-  Task again{t.key, std::make_shared<const Model>(compile(scene)), t.plan, nullptr, {}};
+  Task again{t.key, std::make_shared<const Model>(compile(scene, t.model->condition)), t.plan, nullptr, {}};
   auto outcomes = run_tasks({&again}, o);
   RangeResult r = result_of(*again.model, again.plan, std::move(outcomes.front().record));
   r.retried = true;
@@ -122,7 +134,7 @@ std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const Evaluat
   return packs;
 }
 
-// A run may be another range's of the same speed; what it cost is counted once.
+// A run may be another range's of the same speed and condition; what it cost is counted once.
 std::shared_ptr<const RangeResult> named(const std::shared_ptr<const RangeResult>& result, const std::string& name,
                                          bool pays) {
   if (result->name == name && pays) return result;
@@ -175,9 +187,12 @@ std::string simulation_key(const SceneSpec& scene, const std::string& range) {
     std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
   for (RangeSpec& r : seen.range) {
     r.duty_share = 0;
-    if (seen.range.size() == 1) r.name = "any";  // two ranges of one speed are one run
+    if (seen.range.size() == 1) r.name = "any";  // two ranges of one speed and condition are one run
   }
-  return (seen.range.size() == 1 ? "" : range + "\n") + write_scene(seen);
+  std::string key = (seen.range.size() == 1 ? "" : range + "\n") + write_scene(seen);
+  for (const RangeSpec& r : scene.range)  // which no scene as text holds
+    if (r.name == range) key += write_spec(r.condition);
+  return key;
 }
 
 std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
@@ -188,16 +203,16 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
   std::vector<Task> tasks;
   std::unordered_map<std::string, std::size_t> pending;  // key -> task
   for (std::size_t i = 0; i < points.size(); ++i) {
-    std::shared_ptr<const Model> model;
+    std::shared_ptr<const Drive> drive;
     std::vector<RunPlan> plans;
     try {
-      model = std::make_shared<const Model>(compile(points[i]));
+      drive = std::make_shared<const Drive>(points[i]);
       plans = plans_of(points[i], options_.ranges, options_.measured);
     } catch (const BadInput& bad) {
       results[i].problems = bad.problems();
       continue;
     }
-    results[i].over_budget = over_budget(*model, plans, options_.step_budget);
+    results[i].over_budget = over_budget(drive->models, plans, options_.step_budget);
     if (!results[i].over_budget.empty()) continue;
     for (const RunPlan& plan : plans) {
       names[i].push_back(plan.name);
@@ -213,7 +228,7 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
       const auto [at, fresh] = pending.emplace(key, tasks.size());
       if (fresh) {
         ++simulations_;
-        tasks.push_back({key, model, plan, nullptr, {}});
+        tasks.push_back({key, {drive, &drive->models.of(plan.condition)}, plan, nullptr, {}});
       } else {
         ++reused_;
       }

@@ -281,6 +281,7 @@ bool solve_between_stops(Balance& balance, const ArmStops& stops, Eigen::VectorX
 }  // namespace
 
 QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
+  require_condition(m, range.condition);
   QuasiStaticRange out;
   out.name = range.name;
   out.crank_rpm = range.crank_rpm;
@@ -417,6 +418,7 @@ QuasiStaticRange solve_quasi_static(const Model& m, const RangeSpec& range) {
 }
 
 RangeLoad estimated_load(const Model& m, const RangeSpec& range, const QuasiStaticRange& solution) {
+  require_condition(m, range.condition);
   RangeLoad load;
   load.name = range.name;
   load.duty_share = range.duty_share;
