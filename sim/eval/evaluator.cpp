@@ -195,64 +195,76 @@ std::string simulation_key(const SceneSpec& scene, const std::string& range) {
   return key;
 }
 
-std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
-                                             const std::function<void(std::size_t, const PointResult&)>& on_finished) {
-  std::vector<PointResult> results(points.size());
-  std::vector<std::vector<std::string>> names(points.size()), keys(points.size());
-  std::vector<std::size_t> missing(points.size(), 0);
+/// What a batch asks for and has so far, by point.
+struct Evaluator::Batch {
+  explicit Batch(const std::vector<SceneSpec>& scenes)
+      : points(scenes), results(scenes.size()), names(scenes.size()), keys(scenes.size()), missing(scenes.size(), 0) {}
+  const std::vector<SceneSpec>& points;
+  std::vector<PointResult> results;
+  std::vector<std::vector<std::string>> names, keys;  ///< of its ranges
+  std::vector<std::size_t> missing;                   ///< ranges that are to be run
   std::vector<Task> tasks;
-  std::unordered_map<std::string, std::size_t> pending;  // key -> task
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::shared_ptr<const Drive> drive;
-    std::vector<RunPlan> plans;
-    try {
-      drive = std::make_shared<const Drive>(points[i]);
-      plans = plans_of(points[i], options_.ranges, options_.measured);
-    } catch (const BadInput& bad) {
-      results[i].problems = bad.problems();
+  std::unordered_map<std::string, std::size_t> pending;  ///< key -> task
+};
+
+void Evaluator::ask_for(std::size_t i, Batch& batch) {
+  const SceneSpec& point = batch.points[i];
+  std::shared_ptr<const Drive> drive;
+  std::vector<RunPlan> plans;
+  try {
+    drive = std::make_shared<const Drive>(point);
+    plans = plans_of(point, options_.ranges, options_.measured);
+  } catch (const BadInput& bad) {
+    batch.results[i].problems = bad.problems();
+    return;
+  }
+  batch.results[i].over_budget = over_budget(drive->models, plans, options_.step_budget);
+  if (!batch.results[i].over_budget.empty()) return;
+  for (const RunPlan& plan : plans) {
+    batch.names[i].push_back(plan.name);
+    batch.keys[i].push_back(simulation_key(point, plan.name));
+    if (options_.measured)  // which stretch of it is played
+      for (std::size_t r = 0; r < point.range.size() && point.range[r].name != plan.name; ++r)
+        batch.keys[i].back() += "# behind another range\n";
+    const std::string& key = batch.keys[i].back();
+    if (memo_.contains(key)) {
+      ++reused_;
       continue;
     }
-    results[i].over_budget = over_budget(drive->models, plans, options_.step_budget);
-    if (!results[i].over_budget.empty()) continue;
-    for (const RunPlan& plan : plans) {
-      names[i].push_back(plan.name);
-      keys[i].push_back(simulation_key(points[i], plan.name));
-      if (options_.measured)  // which stretch of it is played
-        for (std::size_t r = 0; r < points[i].range.size() && points[i].range[r].name != plan.name; ++r)
-          keys[i].back() += "# behind another range\n";
-      const std::string& key = keys[i].back();
-      if (memo_.contains(key)) {
-        ++reused_;
-        continue;
-      }
-      const auto [at, fresh] = pending.emplace(key, tasks.size());
-      if (fresh) {
-        ++simulations_;
-        tasks.push_back({key, {drive, &drive->models.of(plan.condition)}, plan, nullptr, {}});
-      } else {
-        ++reused_;
-      }
-      tasks[at->second].points.push_back(i);
-      ++missing[i];
+    const auto [at, fresh] = batch.pending.emplace(key, batch.tasks.size());
+    if (fresh) {
+      ++simulations_;
+      batch.tasks.push_back({key, {drive, &drive->models.of(plan.condition)}, plan, nullptr, {}});
+    } else {
+      ++reused_;
     }
+    batch.tasks[at->second].points.push_back(i);
+    ++batch.missing[i];
   }
+}
+
+std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
+                                             const std::function<void(std::size_t, const PointResult&)>& on_finished) {
+  Batch batch(points);
+  for (std::size_t i = 0; i < points.size(); ++i) ask_for(i, batch);
 
   std::mutex mutex;
   std::atomic<bool> lost = false;
   const auto complete = [&](std::size_t i) {
-    for (std::size_t r = 0; r < keys[i].size(); ++r)
-      results[i].ranges.push_back(named(memo_.at(keys[i][r]), names[i][r], paid_.insert(keys[i][r]).second));
-    finish(points[i], names[i], results[i]);
-    if (on_finished) on_finished(i, results[i]);
+    const auto &keys = batch.keys[i], &names = batch.names[i];
+    for (std::size_t r = 0; r < keys.size(); ++r)
+      batch.results[i].ranges.push_back(named(memo_.at(keys[r]), names[r], paid_.insert(keys[r]).second));
+    finish(points[i], names, batch.results[i]);
+    if (on_finished) on_finished(i, batch.results[i]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (names[i].empty()) {  // refused
-      if (on_finished) on_finished(i, results[i]);
-    } else if (missing[i] == 0) {
+    if (batch.names[i].empty()) {  // refused
+      if (on_finished) on_finished(i, batch.results[i]);
+    } else if (batch.missing[i] == 0) {
       complete(i);
     }
   }
-  auto packs = packs_of(tasks, options_);
+  auto packs = packs_of(batch.tasks, options_);
   parallel_for(static_cast<int>(packs.size()), options_.threads, [&](int p) {
     if (stop_requested() || lost) return;
     const auto& pack = packs[static_cast<std::size_t>(p)];
@@ -272,15 +284,16 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
       for (Task* t : pack) {
         memo_[t->key] = t->result;
         for (std::size_t i : t->points)
-          if (--missing[i] == 0) complete(i);
+          if (--batch.missing[i] == 0) complete(i);
       }
     } catch (...) {
       lost = true;  // nobody keeps the results: no use in making more
       throw;
     }
   });
-  if (std::any_of(missing.begin(), missing.end(), [](std::size_t m) { return m > 0; })) throw Interrupted();
-  return results;
+  const auto waits = [](std::size_t missing) { return missing > 0; };
+  if (std::any_of(batch.missing.begin(), batch.missing.end(), waits)) throw Interrupted();
+  return std::move(batch.results);
 }
 
 }  // namespace beltlife
