@@ -15,7 +15,7 @@
 namespace beltlife {
 namespace {
 
-constexpr DriveCondition base{}, loaded{.torque_factor = 2}, idle{.torque_factor = 0};
+constexpr DriveCondition base{}, loaded{.torque_factor = 1.25}, idle{.torque_factor = 0};
 
 /// Ranges "slow" and "fast", both in the base condition.
 SceneSpec drive(const std::vector<std::string>& more = {}) {
@@ -69,7 +69,7 @@ TEST(Condition, ChangesTheModelThatIsCompiledAndNotTheDrive) {
   EXPECT_EQ(one.condition, base);
   EXPECT_EQ(two.condition, loaded);
   ASSERT_FALSE(one.torques.empty());
-  for (std::size_t i = 0; i < one.torques.size(); ++i) EXPECT_EQ(two.torques[i].factor, 2 * one.torques[i].factor);
+  for (std::size_t i = 0; i < one.torques.size(); ++i) EXPECT_EQ(two.torques[i].factor, 1.25 * one.torques[i].factor);
   EXPECT_EQ(two.belt.unstretched_length, one.belt.unstretched_length);
   EXPECT_EQ(two.statics.balance.tension, one.statics.balance.tension);
 }
@@ -192,10 +192,12 @@ TEST(Condition, OfEachRangeIsThatOfItsStaticsAndModes) {
   const SceneSpec plain = drive(), mixed = with_loaded_fast(plain);
   const SolvedDrive solved = solve_drive(compile(mixed)), as_base = solve_drive(compile(plain));
   const Model at_load = compile(plain, loaded);
+  for (const SolvedDrive* s : {&solved, &as_base})
+    for (const QuasiStaticRange& r : s->statics.ranges) ASSERT_FALSE(r.error) << *r.error;
   const auto torque = [](const QuasiStaticRange& r) { return r.pulleys.back().torque; };
   EXPECT_EQ(torque(solved.statics.ranges[0]), torque(as_base.statics.ranges[0]));
   EXPECT_EQ(torque(solved.statics.ranges[1]), torque(solve_quasi_static(at_load, mixed.range[1])));
-  EXPECT_GT(std::abs(torque(solved.statics.ranges[1])), 1.5 * std::abs(torque(as_base.statics.ranges[1])));
+  EXPECT_GT(std::abs(torque(solved.statics.ranges[1])), 1.2 * std::abs(torque(as_base.statics.ranges[1])));
   EXPECT_NE(solved.statics.estimate.ranges[1].life_h, as_base.statics.estimate.ranges[1].life_h);
   EXPECT_EQ(solved.modes.points[0].loop.tension, as_base.modes.points[0].loop.tension);
   EXPECT_EQ(solved.modes.points[1].loop.tension, solve_modes(at_load, mixed.range[1]).loop.tension);
