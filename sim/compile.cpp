@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <utility>
 
 #include "sim/model.h"
 #include "sim/scene/pitch_line.h"
@@ -136,6 +138,7 @@ void compile_train(Model& m, std::string_view file) {
                    fmt::format("{} is not connected to {}, so there is no speed ratio", *t.referred_to, t.body),
                    "a body connected by belt, shafts or gears"}});
     if (t.referred_to) table.factor = m.speed_ratio[body_index(m, *t.referred_to)] / m.speed_ratio[body];
+    table.factor *= m.condition.torque_factor;
     m.torques.push_back(std::move(table));
   }
 }
@@ -228,6 +231,36 @@ void check_ring(const Model& m, std::string_view file) {
         {Problem{std::string(file), 0, "ring.speed_rad_s", "the ring would stretch without limit", "a lower speed"}});
 }
 
+// All that follows from the scene as filled in and from its balance at rest.
+Model assemble(SceneSpec scene, StaticState statics, const DriveCondition& condition, std::string_view file) {
+  Model m;
+  m.scene = std::move(scene);
+  m.condition = condition;
+  m.statics = std::move(statics);
+  m.belt = compile_belt(m.scene.belt, m.statics.unstretched_length);
+  m.contact = compile_contact(m.scene.contact, m.scene.belt, m.belt.element_length);
+  compile_pulleys(m);
+  compile_bodies(m, file);
+  compile_train(m, file);
+  compile_tensioner(m);
+  if (const auto& driver = m.scene.driver) {
+    m.driver = {body_index(m, driver->body), driver->control, driver->speed_gain_n_m_s_per_rad,
+                driver->angle_gain_n_m_per_rad};
+    if (m.prescribed()) m.inverse_inertia[m.driver.body] = 0;
+  }
+  m.initial.q = at_rest(m);
+  m.initial.anchor = NodeArray(m.belt.nodes);
+  if (m.has_one_way()) m.initial.free_wheel.assign(m.springs.size(), 0.0);
+  m.initial.near.assign(m.belt.nodes, -1);
+  if (m.scene.ring) {
+    check_ring(m, file);
+    place_ring(m);
+  } else {
+    place_on_route(m);
+  }
+  return m;
+}
+
 }  // namespace
 
 int body_index(const Model& model, std::string_view name) {
@@ -236,36 +269,26 @@ int body_index(const Model& model, std::string_view name) {
   return -1;
 }
 
-Model compile(const SceneSpec& scene, std::string_view file) {
-  Model m;
-  m.scene = scene;
+Model compile(const SceneSpec& scene, std::string_view file) { return compile(scene, DriveCondition{}, file); }
+
+Model compile(const SceneSpec& scene, const DriveCondition& condition, std::string_view file) {
+  SceneSpec filled = scene;
+  StaticState statics;
   if (scene.ring)
-    m.statics.unstretched_length = *unstretched_length_mm(scene.belt) * 1e-3;
+    statics.unstretched_length = *unstretched_length_mm(scene.belt) * 1e-3;
   else
-    m.statics = solve_statics(scene, file);
-  fill_in(m.scene, m.statics);
-  m.belt = compile_belt(scene.belt, m.statics.unstretched_length);
-  m.contact = compile_contact(scene.contact, scene.belt, m.belt.element_length);
-  compile_pulleys(m);
-  compile_bodies(m, file);
-  compile_train(m, file);
-  compile_tensioner(m);
-  if (scene.driver) {
-    m.driver = {body_index(m, scene.driver->body), scene.driver->control, scene.driver->speed_gain_n_m_s_per_rad,
-                scene.driver->angle_gain_n_m_per_rad};
-    if (m.prescribed()) m.inverse_inertia[m.driver.body] = 0;
-  }
-  m.initial.q = at_rest(m);
-  m.initial.anchor = NodeArray(m.belt.nodes);
-  if (m.has_one_way()) m.initial.free_wheel.assign(m.springs.size(), 0.0);
-  m.initial.near.assign(m.belt.nodes, -1);
-  if (scene.ring) {
-    check_ring(m, file);
-    place_ring(m);
-  } else {
-    place_on_route(m);
-  }
-  return m;
+    statics = solve_statics(scene, file);
+  fill_in(filled, statics);
+  return assemble(std::move(filled), std::move(statics), condition, file);
+}
+
+Model in_condition(const Model& model, const DriveCondition& condition) {
+  return assemble(model.scene, model.statics, condition, "scene");
+}
+
+void require_condition(const Model& model, const DriveCondition& condition) {
+  if (model.condition != condition)
+    throw std::logic_error("the model is of another condition than what is asked of it");
 }
 
 }  // namespace beltlife

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 # Headers a user may include, and what these include in turn; tests/install sees that none is missing.
 set(sim_headers
-  model.h node_array.h plan.h record.h run.h speed_profile.h state.h status.h
+  model.h node_array.h plan.h range_models.h record.h run.h speed_profile.h state.h status.h
   eval/drive_model.h eval/evaluator.h eval/point.h eval/quantities.h eval/quantity_unit.h eval/run_ranges.h
   eval/summary.h eval/sweep.h
   kernels/kernel.h

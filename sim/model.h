@@ -52,7 +52,7 @@ struct GearPair {
 
 struct TorqueTable {
   int body = 0;
-  double factor = 1;  ///< speed ratio of the body that the torques are stated at to the body they act on
+  double factor = 1;  ///< speed ratio of the body that the torques are stated at to that they act on; the condition's
   Table1 torque;      ///< N m over the body's speed in rad/s, in its running sense
 };
 
@@ -89,8 +89,12 @@ struct DriverModel {
 
 /// Bodies 0 .. pulleys-1 are the pulleys in scene order, the further bodies follow. Angles and speeds are
 /// counterclockwise positive; `sense` is +1 or -1 so that sense x speed is positive in normal running.
+///
+/// A model is of one condition. Those of a drive's ranges are in range_models.h; who is given a model and a range or a
+/// plan sees to it that the conditions are the same.
 struct Model {
-  SceneSpec scene;  ///< what this was compiled from
+  SceneSpec scene;           ///< what this was compiled from
+  DriveCondition condition;  ///< what it was compiled for
   StaticState statics;
   BeltModel belt;
   ContactModel contact;
@@ -127,7 +131,15 @@ struct Model {
 /// Index of a pulley or body by name, -1 if there is none.
 int body_index(const Model& model, std::string_view name);
 
-/// Compiles a valid scene. Throws BadInput for a layout that cannot be built.
+/// Compiles a valid scene, for the base condition or another. Throws BadInput for a layout that cannot be built.
 Model compile(const SceneSpec& scene, std::string_view file = "scene");
+Model compile(const SceneSpec& scene, const DriveCondition& condition, std::string_view file = "scene");
+
+/// The drive of a model in another condition, to the bit what compile() makes of its scene, without solving for the
+/// balance at rest again.
+Model in_condition(const Model& model, const DriveCondition& condition);
+
+/// Throws std::logic_error for a model of another condition.
+void require_condition(const Model& model, const DriveCondition& condition);
 
 }  // namespace beltlife

@@ -31,7 +31,7 @@ Window window_of(const SceneSpec& scene, const RangeSpec& range, double hold_end
 RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured) {
   const ProfileSpec& p = scene.profile;
   const double start = p.settle_s + p.ramp_s;
-  RunPlan plan{range.name, {}, {}, start + p.hold_s};
+  RunPlan plan{range.name, {}, {}, start + p.hold_s, {}, range.condition};
   std::vector<double> t{0, p.settle_s, start}, w{0, 0, range.crank_rpm * rad_s};
   if (measured) {
     std::size_t index = 0;

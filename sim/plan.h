@@ -27,6 +27,8 @@ struct RunPlan {
   double end_s = 0;
   /// Windows are stretches of one hold, of which the last one run is kept; the run ends once two agree within this.
   std::optional<double> settled_within = {};
+  /// Of the drive that runs it: that of the range; the base one where no single range is run.
+  DriveCondition condition = {};
 };
 
 /// A measured speed of the driven body: time (s, increasing) and speed (r/min, positive in the running sense).
@@ -38,7 +40,8 @@ struct MeasuredSpeed {
 /// the hold plays the stretch of it in which the whole profile holds this range.
 RunPlan plan_range(const SceneSpec& scene, const RangeSpec& range, const MeasuredSpeed* measured = nullptr);
 
-/// All ranges one after the other: settle, ramp, then holds with transitions between; one window a range.
+/// All ranges one after the other: settle, ramp, then holds with transitions between; one window a range. One drive
+/// runs through all of them, in the base condition.
 RunPlan plan_profile(const SceneSpec& scene, const MeasuredSpeed* measured = nullptr);
 
 /// As plan_range, with every stretch of evaluate_s of the hold as a window, one behind the other, so that the run can

@@ -34,6 +34,7 @@ std::vector<std::string> kernel_names(const Model& model) {
 RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& options) {
   if (model.scene.solver.scheme == Scheme::linearly_implicit)
     return std::move(run_pack({{&model, &plan}}, LaneUse::arcs, options).front());
+  require_condition(model, plan.condition);
   RunOutcome out;
   RunRecord& record = out.record;
   const double h = run_step(model);

@@ -37,6 +37,7 @@ double run_step(const Model& model);
 /// Names of what a step of this model goes through under its scheme, in order.
 std::vector<std::string> kernel_names(const Model& model);
 
+/// The model is of the plan's condition; else std::logic_error is thrown.
 RunOutcome run(const Model& model, const RunPlan& plan, const RunOptions& options = {});
 
 }  // namespace beltlife

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "sim/modes/modes.h"
+#include "sim/range_models.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -31,12 +33,15 @@ std::vector<OrderDistance> order_distances(const SceneSpec& scene, const std::ve
   std::vector<OrderDistance> all(scene.range.size());
   if (!can_run) return all;
   try {
-    const Model model = compile(scene);
-    std::map<double, OrderDistance> of_speed;
+    const Model drive = compile(scene);
+    const RangeModels models(drive);
+    std::map<std::pair<const Model*, double>, OrderDistance> solved;  // by condition and speed
     for (std::size_t i = 0; i < all.size(); ++i) {
       const RangeSpec& range = scene.range[i];
-      if (!of_speed.contains(range.crank_rpm)) of_speed[range.crank_rpm] = nearest(solve_modes(model, range), orders);
-      all[i] = of_speed[range.crank_rpm];
+      const Model& model = models.of(range.condition);
+      const std::pair at(&model, range.crank_rpm);
+      if (!solved.contains(at)) solved[at] = nearest(solve_modes(model, range), orders);
+      all[i] = solved[at];
     }
   } catch (const BadInput&) {
     return std::vector<OrderDistance>(scene.range.size());

@@ -15,7 +15,7 @@ struct OrderDistance {
 };
 
 /// One entry a range; of a drive that cannot run (`can_run` false, or refused by compile()) zeros. Some 30 ms for every
-/// speed.
+/// speed and condition.
 std::vector<OrderDistance> order_distances(const SceneSpec& scene, const std::vector<double>& orders, bool can_run);
 
 }  // namespace beltlife

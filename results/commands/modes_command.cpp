@@ -17,6 +17,7 @@
 #include "results/text/print.h"
 #include "results/text/table.h"
 #include "sim/eval/solved_drive.h"
+#include "sim/range_models.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -217,9 +218,10 @@ DriveModes modes_of(const Model& m, const std::vector<std::string>& names) {
                           known.empty() ? "none: the scene has no ranges" : known});
   if (!problems.empty()) throw BadInput(std::move(problems));
   DriveModes modes;
+  const RangeModels models(m);
   for (const RangeSpec& range : m.scene.range)
     if (m.pulleys > 0 && std::find(names.begin(), names.end(), range.name) != names.end())
-      modes.points.push_back(solve_modes(m, range));
+      modes.points.push_back(solve_modes(models.of(range.condition), range));
   return modes;
 }
 

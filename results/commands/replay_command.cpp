@@ -17,6 +17,7 @@
 #include "sim/eval/quantities.h"
 #include "sim/eval/settling.h"
 #include "sim/lanes/run_pack.h"
+#include "sim/range_models.h"
 #include "sim/run.h"
 #include "sim/scene/spec_reader.h"
 
@@ -59,6 +60,7 @@ LoadedScene scene_of(const StudyRecord& record, const StudyPoint& point, const R
 // As the evaluator ran it, so that the bits are the same: lanes as noted, once more at half the step if it failed.
 std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan>& plans, bool drives,
                                  const ReplayOptions& o) {
+  const RangeModels models(l.model);
   std::vector<RunRecord> records(plans.size());
   const auto run_one = [&](const Model& model, const RunPlan& plan) {
     RunOptions options;
@@ -74,11 +76,12 @@ std::vector<RunRecord> run_again(const LoadedScene& l, const std::vector<RunPlan
   };
   parallel_for(static_cast<int>(plans.size()), o.threads, [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    records[k] = run_one(l.model, plans[k]);
+    const Model& model = models.of(plans[k].condition);
+    records[k] = run_one(model, plans[k]);
     if (records[k].status.ok() || !drives) return;
     SceneSpec finer = l.file.scene;
-    finer.solver.step_s = 0.5 * run_step(l.model);
-    records[k] = run_one(compile(finer), plans[k]);
+    finer.solver.step_s = 0.5 * run_step(model);
+    records[k] = run_one(compile(finer, model.condition), plans[k]);
   });
   return records;
 }

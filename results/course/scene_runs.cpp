@@ -10,6 +10,7 @@
 
 #include "results/text/print.h"
 #include "results/text/progress.h"
+#include "sim/range_models.h"
 
 namespace beltlife {
 namespace {
@@ -30,9 +31,9 @@ double seconds_of(const std::vector<RunPlan>& plans) {
   return std::accumulate(plans.begin(), plans.end(), 0.0, [](double sum, const RunPlan& p) { return sum + p.end_s; });
 }
 
-void refuse_long_step(const LoadedScene& l) {
-  const StepLimit limit = step_limits(l.model, l.file.scene.solver.scheme).front();
-  const double step = run_step(l.model);
+void refuse_long_step(const LoadedScene& l, const Model& m) {
+  const StepLimit limit = step_limits(m, l.file.scene.solver.scheme).front();
+  const double step = run_step(m);
   if (step <= limit.limit_s * (1 + 1e-9)) return;
   throw located(
       l.file,
@@ -46,7 +47,10 @@ void refuse_long_step(const LoadedScene& l) {
 
 std::vector<RunOutcome> run_all(const LoadedScene& l, const std::vector<RunPlan>& plans, const RangeOptions& o,
                                 double& wall_s) {
-  if (!o.force) refuse_long_step(l);
+  if (!o.force) {
+    const RangeModels models(l.model);
+    for (const RunPlan& plan : plans) refuse_long_step(l, models.of(plan.condition));
+  }
   if (l.measured) warn_of_speed(plans, l.file.scene);
   Progress progress(l.file.path.stem().string(), seconds_of(plans), "s simulated", o.quiet);
   const auto start = std::chrono::steady_clock::now();

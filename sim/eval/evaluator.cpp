@@ -15,14 +15,24 @@
 #include "sim/eval/settling.h"
 #include "sim/lanes/run_pack.h"
 #include "sim/life/loads.h"
+#include "sim/range_models.h"
+#include "sim/scene/spec_writer.h"
 
 namespace beltlife {
 namespace {
 
+/// A drive in the conditions of its ranges, at an address that lasts.
+struct Drive {
+  explicit Drive(const SceneSpec& scene) : built(compile(scene)), models(built) {}
+  Drive(const Drive&) = delete;
+  Model built;
+  RangeModels models;
+};
+
 /// One range of one drive that is not in the memo.
 struct Task {
   std::string key;
-  std::shared_ptr<const Model> model;
+  std::shared_ptr<const Model> model;  ///< in the range's condition
   RunPlan plan;
   std::shared_ptr<RangeResult> result;
   std::vector<std::size_t> points;  ///< that wait for it
@@ -80,14 +90,16 @@ double processor_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-std::string over_budget(const Model& model, const std::vector<RunPlan>& plans, std::optional<double> budget) {
+std::string over_budget(const RangeModels& models, const std::vector<RunPlan>& plans, std::optional<double> budget) {
   if (!budget) return "";
-  for (const RunPlan& plan : plans)
+  for (const RunPlan& plan : plans) {
+    const Model& model = models.of(plan.condition);
     if (const double steps = plan.end_s / run_step(model) * (model.scene.solver.scheme == Scheme::thesis ? 2 : 1);
         steps > *budget)
       return fmt::format(
           "range {} needs {:.3g} force evaluations at its step of {:.3g} s, more than the budget of {:.3g}", plan.name,
           steps, run_step(model), *budget);
+  }
   return "";
 }
 
@@ -95,7 +107,7 @@ std::string over_budget(const Model& model, const std::vector<RunPlan>& plans, s
 RangeResult retry(const Task& t, const EvaluatorOptions& o) {
   SceneSpec scene = t.model->scene;
   scene.solver.step_s = 0.5 * run_step(*t.model);
-  Task again{t.key, std::make_shared<const Model>(compile(scene)), t.plan, nullptr, {}};
+  Task again{t.key, std::make_shared<const Model>(compile(scene, t.model->condition)), t.plan, nullptr, {}};
   auto outcomes = run_tasks({&again}, o);
   RangeResult r = result_of(*again.model, again.plan, std::move(outcomes.front().record));
   r.retried = true;
@@ -122,7 +134,7 @@ std::vector<std::vector<Task*>> packs_of(std::vector<Task>& tasks, const Evaluat
   return packs;
 }
 
-// A run may be another range's of the same speed; what it cost is counted once.
+// A run may be another range's of the same speed and condition; what it cost is counted once.
 std::shared_ptr<const RangeResult> named(const std::shared_ptr<const RangeResult>& result, const std::string& name,
                                          bool pays) {
   if (result->name == name && pays) return result;
@@ -175,69 +187,84 @@ std::string simulation_key(const SceneSpec& scene, const std::string& range) {
     std::erase_if(seen.range, [&](const RangeSpec& r) { return r.name != range; });
   for (RangeSpec& r : seen.range) {
     r.duty_share = 0;
-    if (seen.range.size() == 1) r.name = "any";  // two ranges of one speed are one run
+    if (seen.range.size() == 1) r.name = "any";  // two ranges of one speed and condition are one run
   }
-  return (seen.range.size() == 1 ? "" : range + "\n") + write_scene(seen);
+  std::string key = (seen.range.size() == 1 ? "" : range + "\n") + write_scene(seen);
+  for (const RangeSpec& r : scene.range)  // which no scene as text holds
+    if (r.name == range) key += write_spec(r.condition);
+  return key;
+}
+
+/// What a batch asks for and has so far, by point.
+struct Evaluator::Batch {
+  explicit Batch(const std::vector<SceneSpec>& scenes)
+      : points(scenes), results(scenes.size()), names(scenes.size()), keys(scenes.size()), missing(scenes.size(), 0) {}
+  const std::vector<SceneSpec>& points;
+  std::vector<PointResult> results;
+  std::vector<std::vector<std::string>> names, keys;  ///< of its ranges
+  std::vector<std::size_t> missing;                   ///< ranges that are to be run
+  std::vector<Task> tasks;
+  std::unordered_map<std::string, std::size_t> pending;  ///< key -> task
+};
+
+void Evaluator::ask_for(std::size_t i, Batch& batch) {
+  const SceneSpec& point = batch.points[i];
+  std::shared_ptr<const Drive> drive;
+  std::vector<RunPlan> plans;
+  try {
+    drive = std::make_shared<const Drive>(point);
+    plans = plans_of(point, options_.ranges, options_.measured);
+  } catch (const BadInput& bad) {
+    batch.results[i].problems = bad.problems();
+    return;
+  }
+  batch.results[i].over_budget = over_budget(drive->models, plans, options_.step_budget);
+  if (!batch.results[i].over_budget.empty()) return;
+  for (const RunPlan& plan : plans) {
+    batch.names[i].push_back(plan.name);
+    batch.keys[i].push_back(simulation_key(point, plan.name));
+    if (options_.measured)  // which stretch of it is played
+      for (std::size_t r = 0; r < point.range.size() && point.range[r].name != plan.name; ++r)
+        batch.keys[i].back() += "# behind another range\n";
+    const std::string& key = batch.keys[i].back();
+    if (memo_.contains(key)) {
+      ++reused_;
+      continue;
+    }
+    const auto [at, fresh] = batch.pending.emplace(key, batch.tasks.size());
+    if (fresh) {
+      ++simulations_;
+      batch.tasks.push_back({key, {drive, &drive->models.of(plan.condition)}, plan, nullptr, {}});
+    } else {
+      ++reused_;
+    }
+    batch.tasks[at->second].points.push_back(i);
+    ++batch.missing[i];
+  }
 }
 
 std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& points,
                                              const std::function<void(std::size_t, const PointResult&)>& on_finished) {
-  std::vector<PointResult> results(points.size());
-  std::vector<std::vector<std::string>> names(points.size()), keys(points.size());
-  std::vector<std::size_t> missing(points.size(), 0);
-  std::vector<Task> tasks;
-  std::unordered_map<std::string, std::size_t> pending;  // key -> task
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::shared_ptr<const Model> model;
-    std::vector<RunPlan> plans;
-    try {
-      model = std::make_shared<const Model>(compile(points[i]));
-      plans = plans_of(points[i], options_.ranges, options_.measured);
-    } catch (const BadInput& bad) {
-      results[i].problems = bad.problems();
-      continue;
-    }
-    results[i].over_budget = over_budget(*model, plans, options_.step_budget);
-    if (!results[i].over_budget.empty()) continue;
-    for (const RunPlan& plan : plans) {
-      names[i].push_back(plan.name);
-      keys[i].push_back(simulation_key(points[i], plan.name));
-      if (options_.measured)  // which stretch of it is played
-        for (std::size_t r = 0; r < points[i].range.size() && points[i].range[r].name != plan.name; ++r)
-          keys[i].back() += "# behind another range\n";
-      const std::string& key = keys[i].back();
-      if (memo_.contains(key)) {
-        ++reused_;
-        continue;
-      }
-      const auto [at, fresh] = pending.emplace(key, tasks.size());
-      if (fresh) {
-        ++simulations_;
-        tasks.push_back({key, model, plan, nullptr, {}});
-      } else {
-        ++reused_;
-      }
-      tasks[at->second].points.push_back(i);
-      ++missing[i];
-    }
-  }
+  Batch batch(points);
+  for (std::size_t i = 0; i < points.size(); ++i) ask_for(i, batch);
 
   std::mutex mutex;
   std::atomic<bool> lost = false;
   const auto complete = [&](std::size_t i) {
-    for (std::size_t r = 0; r < keys[i].size(); ++r)
-      results[i].ranges.push_back(named(memo_.at(keys[i][r]), names[i][r], paid_.insert(keys[i][r]).second));
-    finish(points[i], names[i], results[i]);
-    if (on_finished) on_finished(i, results[i]);
+    const auto &keys = batch.keys[i], &names = batch.names[i];
+    for (std::size_t r = 0; r < keys.size(); ++r)
+      batch.results[i].ranges.push_back(named(memo_.at(keys[r]), names[r], paid_.insert(keys[r]).second));
+    finish(points[i], names, batch.results[i]);
+    if (on_finished) on_finished(i, batch.results[i]);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (names[i].empty()) {  // refused
-      if (on_finished) on_finished(i, results[i]);
-    } else if (missing[i] == 0) {
+    if (batch.names[i].empty()) {  // refused
+      if (on_finished) on_finished(i, batch.results[i]);
+    } else if (batch.missing[i] == 0) {
       complete(i);
     }
   }
-  auto packs = packs_of(tasks, options_);
+  auto packs = packs_of(batch.tasks, options_);
   parallel_for(static_cast<int>(packs.size()), options_.threads, [&](int p) {
     if (stop_requested() || lost) return;
     const auto& pack = packs[static_cast<std::size_t>(p)];
@@ -257,15 +284,16 @@ std::vector<PointResult> Evaluator::evaluate(const std::vector<SceneSpec>& point
       for (Task* t : pack) {
         memo_[t->key] = t->result;
         for (std::size_t i : t->points)
-          if (--missing[i] == 0) complete(i);
+          if (--batch.missing[i] == 0) complete(i);
       }
     } catch (...) {
       lost = true;  // nobody keeps the results: no use in making more
       throw;
     }
   });
-  if (std::any_of(missing.begin(), missing.end(), [](std::size_t m) { return m > 0; })) throw Interrupted();
-  return results;
+  const auto waits = [](std::size_t missing) { return missing > 0; };
+  if (std::any_of(batch.missing.begin(), batch.missing.end(), waits)) throw Interrupted();
+  return std::move(batch.results);
 }
 
 }  // namespace beltlife

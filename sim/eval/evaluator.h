@@ -72,6 +72,10 @@ class Evaluator {
   std::size_t reused() const { return reused_; }            ///< ranges taken from the memo
 
  private:
+  struct Batch;
+  /// Compiles a point, unless it is refused, and notes what of it is in no memo.
+  void ask_for(std::size_t point, Batch& batch);
+
   EvaluatorOptions options_;
   std::unordered_map<std::string, std::shared_ptr<const RangeResult>> memo_;
   std::unordered_set<std::string> paid_;  ///< keys whose cost a point has been given

@@ -9,6 +9,7 @@
 
 #include "sim/eval/parallel_for.h"
 #include "sim/eval/settling.h"
+#include "sim/range_models.h"
 #include "sim/scene/scene_io.h"
 
 namespace beltlife {
@@ -32,8 +33,9 @@ std::vector<RunPlan> plans_of(const SceneSpec& scene, const std::vector<std::str
   return plans;
 }
 
-std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>& plans, int threads,
+std::vector<RunOutcome> run_plans(const Model& drive, const std::vector<RunPlan>& plans, int threads,
                                   const std::function<void(double)>& progress, bool profile_kernels, int frames) {
+  const RangeModels models(drive);
   std::vector<std::size_t> order(plans.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return plans[a].end_s > plans[b].end_s; });
@@ -42,6 +44,7 @@ std::vector<RunOutcome> run_plans(const Model& model, const std::vector<RunPlan>
   std::mutex mutex;
   parallel_for(static_cast<int>(plans.size()), threads, [&](int k) {
     const std::size_t i = order[static_cast<std::size_t>(k)];
+    const Model& model = models.of(plans[i].condition);
     RunOptions options;
     options.profile_kernels = profile_kernels;
     options.frames = frames;

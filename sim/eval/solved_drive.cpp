@@ -4,16 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/range_models.h"
+
 namespace beltlife {
 
 DriveStatics drive_statics(const Model& m) {
   DriveStatics s;
   if (m.pulleys == 0) return s;
   s.take_up = take_up(m);
+  const RangeModels models(m);
   std::vector<RangeLoad> loads;
   for (const RangeSpec& range : m.scene.range) {
-    s.ranges.push_back(solve_quasi_static(m, range));
-    if (!s.ranges.back().error) loads.push_back(estimated_load(m, range, s.ranges.back()));
+    const Model& of_range = models.of(range.condition);
+    s.ranges.push_back(solve_quasi_static(of_range, range));
+    if (!s.ranges.back().error) loads.push_back(estimated_load(of_range, range, s.ranges.back()));
   }
   if (s.ranges.empty()) return s;
   s.estimate = duty_cycle_life(loads, m.scene.fatigue);
@@ -27,9 +31,11 @@ DriveStatics drive_statics(const Model& m) {
 DriveModes drive_modes(const Model& m) {
   DriveModes d;
   if (m.pulleys == 0) return d;
-  for (const RangeSpec& range : m.scene.range) d.points.push_back(solve_modes(m, range));
-  if (d.points.empty()) d.points.push_back(solve_modes(m, {"rest", 0, 0}));
-  d.map = campbell(m);
+  const RangeModels models(m);
+  const Model& base = models.of({});
+  for (const RangeSpec& range : m.scene.range) d.points.push_back(solve_modes(models.of(range.condition), range));
+  if (d.points.empty()) d.points.push_back(solve_modes(base, {"rest", 0, 0}));
+  d.map = campbell(base);
   d.crossings = crossings(d.map, m.scene.range);
   return d;
 }

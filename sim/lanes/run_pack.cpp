@@ -23,7 +23,10 @@ std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse
   const auto per_sample =
       static_cast<std::int64_t>(std::llround(1 / (members.front().model->scene.solver.sample_rate_hz * h)));
   std::vector<LaneDrive> drives;
-  for (const PackMember& m : members) drives.push_back({m.model, &m.plan->profile});
+  for (const PackMember& m : members) {
+    require_condition(*m.model, m.plan->condition);
+    drives.push_back({m.model, &m.plan->profile});
+  }
   LaneSimulator s(drives, use, h);
   s.profile_kernels(options.profile_kernels);
 

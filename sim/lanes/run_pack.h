@@ -14,7 +14,7 @@ struct PackMember {
 };
 
 /// Runs the members together; all have the same topology, element count, step and sampling rate. A member that fails
-/// ends there; the others go on.
+/// ends there; the others go on. Throws std::logic_error for a model that is not of its plan's condition.
 std::vector<RunOutcome> run_pack(const std::vector<PackMember>& members, LaneUse use, const RunOptions& options = {});
 
 }  // namespace beltlife

@@ -73,7 +73,8 @@ Campbell campbell(const Model& model, int points, const ModesOptions& options) {
   std::vector<Modes> at;
   for (int i = 0; i < points; ++i) {
     diagram.crank_rpm.push_back(first + (last - first) * i / (points - 1));
-    at.push_back(solve_modes(model, {"", diagram.crank_rpm.back(), 0}, options));
+    at.push_back(
+        solve_modes(model, {.name = "", .crank_rpm = diagram.crank_rpm.back(), .condition = model.condition}, options));
     std::string state;
     for (const bool engaged : at.back().loop.gear_engaged) state += engaged ? '1' : '0';
     for (const ArmModes& arm : at.back().arms)

@@ -24,8 +24,9 @@ struct Campbell {
   std::vector<FrequencyCurve> curves;
 };
 
-/// From 5 % below the slowest range to 5 % above the fastest. Empty without ranges or pulleys. Rotational modes
-/// are the damped ones; those that lie above the highest order everywhere are left out.
+/// From 5 % below the slowest range to 5 % above the fastest, at all speeds in the model's condition. Empty without
+/// ranges or pulleys. Rotational modes are the damped ones; those that lie above the highest order everywhere are left
+/// out.
 Campbell campbell(const Model& model, int points = 31, const ModesOptions& options = {});
 
 /// An order of the crank's rotation meets a natural frequency.

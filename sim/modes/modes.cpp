@@ -107,6 +107,7 @@ SpanModes string_modes(const Model& m, const OperatingPoint& loop, std::size_t k
 }  // namespace
 
 Modes solve_modes(const Model& m, const RangeSpec& range, const ModesOptions& options) {
+  require_condition(m, range.condition);
   Modes modes{range, {}, {}, {}};
   if (m.pulleys == 0) return modes;
   modes.loop = operating_point(m, range.crank_rpm);

@@ -66,7 +66,8 @@ struct ModesOptions {
   LinearOptions linear;
 };
 
-/// Nothing (no arms, no spans) for a scene without pulleys.
+/// Nothing (no arms, no spans) for a scene without pulleys. The model is of the range's condition; else
+/// std::logic_error is thrown.
 Modes solve_modes(const Model& model, const RangeSpec& range, const ModesOptions& options = {});
 
 /// The bodies, arm or belt that hold most of a mode's kinetic energy, e.g. "turbine 62 %, arm 20 %".

@@ -63,7 +63,7 @@ void take_rest(const Model& m, double surface_speed, OperatingPoint& p) {
 
 // The solution needs the arm without dry friction only: without it, no time goes into the friction's band.
 QuasiStaticRange solution_at(const Model& m, double crank_rpm) {
-  const RangeSpec range{"", crank_rpm, 0};
+  const RangeSpec range{.name = "", .crank_rpm = crank_rpm, .condition = m.condition};
   if (!arm_turns(m)) return solve_quasi_static(m, range);
   Model frictionless = m;
   frictionless.tensioner.friction_torque = frictionless.tensioner.friction_shortening = 0;

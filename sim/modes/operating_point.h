@@ -8,8 +8,8 @@
 
 namespace beltlife {
 
-/// The drive at a constant crank speed. Tensions and arm angle are the quasi-static solution's (statics/), with dry
-/// friction at the arm at the middle of its band. Where there is none, see `instead`.
+/// The drive at a constant crank speed, in its model's condition. Tensions and arm angle are the quasi-static
+/// solution's (statics/), with dry friction at the arm at the middle of its band. Where there is none, see `instead`.
 struct OperatingPoint {
   double crank_rpm = 0;
   double belt_speed = 0;           ///< v, m/s, of the unstretched belt

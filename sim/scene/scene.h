@@ -323,10 +323,24 @@ struct DriverSpec {
   }
 };
 
+/// What an operating range changes of a drive beside its speed. It changes how the drive runs, not what it is: parts,
+/// mesh, length of the belt and balance at rest are those of the drive as it was built. The default is the base
+/// condition: of a drive at rest, and of a run that belongs to no single range.
+struct DriveCondition {
+  double torque_factor = 1;
+
+  template <class V>
+  void visit(V& v) {
+    v("torque_factor", torque_factor, within(0, 100), "multiplies every torque table");
+  }
+  friend bool operator==(const DriveCondition&, const DriveCondition&) = default;
+};
+
 struct RangeSpec {
   std::string name;
   double crank_rpm = 0;
   double duty_share = 0;
+  DriveCondition condition = {};  ///< stands in no scene file; programs that embed the simulator set it
 
   template <class V>
   void visit(V& v) {

@@ -51,7 +51,8 @@ struct QuasiStaticRange {
 };
 
 /// Solves one range: span tensions and arm angle from the torque tables at the speeds of creep, the belt's length and
-/// the arm's balance. README.md has the equations and what is left out.
+/// the arm's balance. README.md has the equations and what is left out. The model is of the range's condition; else
+/// std::logic_error is thrown, here and below.
 QuasiStaticRange solve_quasi_static(const Model& model, const RangeSpec& range);
 
 /// Loads for life.h from a solution: steady tensions, normal forces T' l0/R of the tighter side times a peak factor,

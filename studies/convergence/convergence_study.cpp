@@ -158,7 +158,7 @@ std::vector<NumericalRun> ConvergenceStudy::settings() const {
       scene.belt.elements = n;
       scene.solver.scheme = scheme;
       scene.solver.step_s.reset();
-      const Model model = compile(scene);
+      const Model model = compile(scene);  // a setting has one step for all ranges: that of the base condition
       const bool implicit = scheme == Scheme::linearly_implicit;
       for (const double x : implicit ? settings_.implicit_steps_s : settings_.explicit_factors) {
         Model at = model;

@@ -125,6 +125,13 @@ Point StabilityStudy::point(const Case& c, bool trial, std::string_view scheme, 
   return {joined_lines(settings), std::string(scheme), step_s};
 }
 
+Model StabilityStudy::drive_at(const Point& p) const {
+  const SceneSpec scene = scene_at(problem_.scene->file.scene, columns, p);
+  for (const RangeSpec& r : scene.range)
+    if (r.name == range_) return compile(scene, r.condition);
+  return compile(scene);
+}
+
 PointModel StabilityStudy::model(int threads) const {
   return model_of(problem_, columns, head().quantities, {.threads = threads, .use = LaneUse::arcs, .retry = false});
 }
@@ -138,8 +145,7 @@ nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
       b.case_index = i;
       b.scheme = enum_name(scheme);
       try {
-        const Model model =
-            compile(scene_at(problem_.scene->file.scene, columns, point(cases_[i], true, b.scheme, "")));
+        const Model model = drive_at(point(cases_[i], true, b.scheme, ""));
         b.predicted = stable_step(model, scheme);
         b.limited_by = step_limits(model, scheme).front().name;
       } catch (const BadInput& bad) {
@@ -210,7 +216,7 @@ nlohmann::json StabilityStudy::extremes(StudyRun& run) const {
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
     double step = 0;
     try {
-      step = run_step(compile(scene_at(problem_.scene->file.scene, columns, points[i])));
+      step = run_step(drive_at(points[i]));
     } catch (const BadInput&) {
       // The answer says what was wrong.
     }

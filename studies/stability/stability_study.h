@@ -79,6 +79,8 @@ class StabilityStudy {
   nlohmann::json extremes(StudyRun& run) const;
   /// As the short trials run it, or as the scene says; no text as step: the predicted one.
   Point point(const Case& c, bool trial, std::string_view scheme, const std::string& step_s) const;
+  /// In the condition of the range that is run.
+  Model drive_at(const Point& p) const;
 
   LoadedProblem problem_;
   StabilitySettings settings_;
