@@ -12,6 +12,8 @@ void add_calibrate_command(CommandLine& line) {
   Command command = line.command("calibrate", "fit parameters to measured spectra or numbers, with intervals");
   driver_flags(command, *o, "calibration file (TOML)", false);
   command.prints("--fields", reference_of<CalibrationSpec>, "print the reference of the file's fields as Markdown")
+      .prints("--answer", reference_of_answer<CalibrationAnswer>,
+              "print the reference of the answer's parts as Markdown")
       .footer(
           "Examples:\n"
           "  beltlife calibrate calibrate/examples/small.toml --set profile.hold_s=1 --set profile.evaluate_s=0.48\n"

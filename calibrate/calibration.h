@@ -1,6 +1,7 @@
 // Owns the driver calibrate: parameters of a model fitted to measurements, with how sure they are.
 #pragma once
 
+#include "calibrate/calibration_result.h"
 #include "calibrate/calibration_spec.h"
 #include "calibrate/fit_model.h"
 #include "results/course/study_run.h"
@@ -10,13 +11,14 @@ namespace beltlife {
 class Calibration {
  public:
   using Spec = CalibrationSpec;
+  using Result = CalibrationAnswer;
   static void prepare(Spec& spec, const DriverOptions& options, ReadLog& log);
   static std::vector<std::string> quantities(const Model&) { return {}; }  // what the targets need is added later
   Calibration(const LoadedProblem& problem, const Spec& spec, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  CalibrationAnswer solve(StudyRun& run) const;
+  static std::string text(const CalibrationAnswer& answer);
 
  private:
   void add_observations(const Spec& spec, ReadLog& log);

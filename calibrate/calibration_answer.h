@@ -1,19 +1,18 @@
-// Owns the answer of a calibration as JSON.
+// Owns how a calibration's answer follows from its fits.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "calibrate/calibration_result.h"
 #include "calibrate/fit_many.h"
 #include "calibrate/inference.h"
 
 namespace beltlife {
 
-/// Values with intervals, cost and its course, correlations, the weakest direction, residuals, verdicts in words.
-nlohmann::json answer_of(const FitModel& model, const FitCourse& course, const Inference& inference,
-                         const std::vector<std::size_t>& profiled, const std::vector<Profile>& profiles,
-                         double confidence);
+/// Values with intervals, cost and its course, correlations, the weakest direction.
+CalibrationAnswer answer_of(const FitModel& model, const FitCourse& course, const Inference& inference,
+                            const std::vector<std::size_t>& profiled, const std::vector<Profile>& profiles,
+                            double confidence);
 
 /// Targets beside the model's numbers at the start and at the end.
-nlohmann::json residuals_of(const std::vector<Target>& targets, const Answer& start, const Answer& end);
+std::vector<ResidualAnswer> residuals_of(const std::vector<Target>& targets, const Answer& start, const Answer& end);
 
 }  // namespace beltlife

@@ -40,11 +40,7 @@ std::vector<double> revolution(std::span<const double> signal, std::span<const d
   return sum;
 }
 
-struct Curves {
-  std::vector<double> frequency_hz, amplitude, trace;
-};
-
-Curves curves_of(const RunRecord& record, const Measurement& m, double sample_rate_hz) {
+CalculatedCurves curves_of(const RunRecord& record, const Measurement& m, double sample_rate_hz) {
   const WindowRecord& window = record.windows.back();
   const auto stretch = [&](const std::string& name) -> std::span<const double> {
     const Channel* channel = record.trace.find(name);
@@ -52,7 +48,7 @@ Curves curves_of(const RunRecord& record, const Measurement& m, double sample_ra
                    : std::span<const double>{};
   };
   const auto signal = stretch(m.spec.channel), angle = stretch("driver.angle_rad");
-  Curves c;
+  CalculatedCurves c;
   if (signal.size() < 8) return c;
   Spectrum s = amplitude_spectrum(signal, sample_rate_hz);
   c.frequency_hz = std::move(s.frequency_hz);
@@ -79,44 +75,39 @@ std::vector<double> aligned(const std::vector<double>& a, std::vector<double> b)
   return b;
 }
 
-nlohmann::json pictures_of(const LoadedProblem& problem, const std::vector<Measurement>& measurements,
-                           const Point& start, const Point& end, int threads) {
-  nlohmann::json pictures = nlohmann::json::array();
+std::vector<RecordPicture> pictures_of(const LoadedProblem& problem, const std::vector<Measurement>& measurements,
+                                       const Point& start, const Point& end, int threads) {
+  std::vector<RecordPicture> pictures;
   if (measurements.empty()) return pictures;
   std::vector<std::string> ranges;
   for (const Measurement& m : measurements)
     if (std::find(ranges.begin(), ranges.end(), m.spec.range) == ranges.end()) ranges.push_back(m.spec.range);
   for (const Measurement& m : measurements)
-    pictures.push_back({{"range", m.spec.range},
-                        {"channel", m.spec.channel},
-                        {"file", m.spec.file},
-                        {"crank_rpm", m.crank_rpm},
-                        {"noise", m.noise},
-                        {"windows", m.windows},
-                        {"left_out", m.left_out},
-                        {"measured",
-                         {{"frequency_hz", m.frequency_hz},
-                          {"amplitude", m.amplitude},
-                          {"angle_deg", m.angle_deg},
-                          {"trace", m.trace}}}});
-  const struct {
-    const char* name;
-    const Point* point;
-  } sides[] = {{"start", &start}, {"calibrated", &end}};
-  for (const auto& [name, point] : sides) {
-    const SceneSpec scene = scene_at(problem.scene->file.scene, problem.spec.paths(), *point);
+    pictures.push_back({m.spec.range,
+                        m.spec.channel,
+                        m.spec.file,
+                        m.crank_rpm,
+                        m.noise,
+                        static_cast<std::int64_t>(m.windows),
+                        m.left_out,
+                        MeasuredCurves{{m.frequency_hz, m.amplitude, m.trace}, m.angle_deg},
+                        {},
+                        {}});
+  const auto draw = [&](const Point& point, std::optional<CalculatedCurves> RecordPicture::*side) {
+    const SceneSpec scene = scene_at(problem.scene->file.scene, problem.spec.paths(), point);
     const Model model = compile(scene);
     const auto plans = plans_of(scene, ranges, problem.scene->speed());
     const auto outcomes = run_plans(model, plans, threads);
     for (std::size_t k = 0; k < measurements.size(); ++k)
       for (std::size_t r = 0; r < plans.size(); ++r) {
         if (plans[r].name != measurements[k].spec.range || !outcomes[r].record.status.ok()) continue;
-        const Curves c = curves_of(outcomes[r].record, measurements[k], scene.solver.sample_rate_hz);
-        pictures[k][name] = {{"frequency_hz", c.frequency_hz},
-                             {"amplitude", c.amplitude},
-                             {"trace", aligned(measurements[k].trace, c.trace)}};
+        CalculatedCurves c = curves_of(outcomes[r].record, measurements[k], scene.solver.sample_rate_hz);
+        c.trace = aligned(measurements[k].trace, std::move(c.trace));
+        pictures[k].*side = std::move(c);
       }
-  }
+  };
+  draw(start, &RecordPicture::start);
+  draw(end, &RecordPicture::calibrated);
   return pictures;
 }
 

@@ -125,21 +125,21 @@ const SceneSpec& DesignProblem::placed(const Candidate& c) const {
 
 SceneSpec DesignProblem::scene(const Candidate& c) const { return placed(c); }
 
-std::vector<Clearance> DesignProblem::limits(const Candidate& c) const {
+std::vector<LayoutLimit> DesignProblem::limits(const Candidate& c) const {
   if (!problem_.scene) return {};
   return layout_limits(placed(c), free_limits_);
 }
 
-std::vector<Clearance> DesignProblem::running_limits(const Candidate& c) const {
+std::vector<LayoutLimit> DesignProblem::running_limits(const Candidate& c) const {
   if (!problem_.scene || !spec_.layout || !spec_.layout->limits.of_running()) return {};
   const SceneSpec& scene = placed(c);
   const std::size_t free = layout_limits(scene, free_limits_).size();
-  std::vector<Clearance> all = layout_limits(scene, spec_.layout->limits, RunningDetail::with_bending_loss);
+  std::vector<LayoutLimit> all = layout_limits(scene, spec_.layout->limits, RunningDetail::with_bending_loss);
   all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(free));  // they come last
   return all;
 }
 
-double DesignProblem::scale_of(const Clearance& limit) const {
+double DesignProblem::scale_of(const LayoutLimit& limit) const {
   constexpr double much_mm = 20, much_deg = 20, much_percent = 20;
   if (limit.unit == "mm") return much_mm;
   if (limit.unit == "deg") return much_deg;
@@ -150,7 +150,7 @@ double DesignProblem::scale_of(const Clearance& limit) const {
 
 std::vector<double> DesignProblem::geometry(const Candidate& c) const {
   std::vector<double> scaled;
-  for (const Clearance& limit : limits(c)) scaled.push_back(limit.value / scale_of(limit));
+  for (const LayoutLimit& limit : limits(c)) scaled.push_back(limit.value / scale_of(limit));
   return scaled;
 }
 

@@ -44,13 +44,13 @@ class DesignProblem {
   /// Needs a layout.
   SceneSpec scene(const Candidate& c) const;
   /// Limits that need no simulation, without the quasi-static ones; empty without layout.
-  std::vector<Clearance> limits(const Candidate& c) const;
+  std::vector<LayoutLimit> limits(const Candidate& c) const;
   /// The quasi-static ones alone, bending loss included: too slow to ask for what is not simulated.
-  std::vector<Clearance> running_limits(const Candidate& c) const;
+  std::vector<LayoutLimit> running_limits(const Candidate& c) const;
   /// `limits` as a search takes them: so that 1 is a lot.
   std::vector<double> geometry(const Candidate& c) const;
   /// What is a lot of a limit, in its unit.
-  double scale_of(const Clearance& limit) const;
+  double scale_of(const LayoutLimit& limit) const;
 
   const LoadedProblem& problem() const { return problem_; }
   const OptimizationSpec& spec() const { return spec_; }

@@ -47,7 +47,7 @@ DesignRuns::DesignRuns(const DesignProblem& design, StudyRun& run) : design_(des
       bounds_.push_back({c.name.empty() ? c.quantity : c.name, c.quantity, *bound, upper, c.scale.value_or(size)});
       columns_.push_back(column_of(design, c.quantity));
     }
-  for (const Clearance& limit : design.running_limits(design.start()))
+  for (const LayoutLimit& limit : design.running_limits(design.start()))
     running_scales_.push_back(design.scale_of(limit));
   if (spec.robust) draws_ = scatter_draws(spec.scatter, spec.robust->samples, spec.optimization.seed);
 }
@@ -132,7 +132,7 @@ std::vector<Outcome> DesignRuns::evaluate(const std::vector<Candidate>& candidat
     Outcome o =
         outcome_of({points.begin() + from, points.begin() + to}, {answers.begin() + from, answers.begin() + to});
     if (o.ok())
-      for (const Clearance& limit : design_.running_limits(candidates[i])) o.constraints.push_back(limit.value);
+      for (const LayoutLimit& limit : design_.running_limits(candidates[i])) o.constraints.push_back(limit.value);
     outcomes.push_back(std::move(o));
   }
   return outcomes;

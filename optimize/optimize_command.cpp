@@ -11,6 +11,7 @@ void add_optimize_command(CommandLine& line) {
   Command command = line.command("optimize", "search layouts for the longest life, within named clearances");
   driver_flags(command, *o, "search file (TOML)", true);
   command.prints("--fields", reference_of<OptimizationSpec>, "print the reference of the file's fields as Markdown")
+      .prints("--answer", reference_of_answer<SearchAnswer>, "print the reference of the answer's parts as Markdown")
       .footer(
           "Examples:\n"
           "  beltlife optimize optimize/examples/small.toml\n"

@@ -20,7 +20,7 @@ install(FILES tests/install/consumer/CMakeLists.txt tests/install/consumer/main.
   DESTINATION ${data_dir}/examples/embed COMPONENT dev)
 
 file(GLOB documents RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS README.md CHANGELOG.md sim/*.md sim/*/*.md
-  studies/README.md calibrate/README.md optimize/README.md results/README.md results/*.md results/*/*.md results/*.svg
+  studies/*.md calibrate/README.md optimize/README.md results/README.md results/*.md results/*/*.md results/*.svg
   results/reports/*/README.md)
 list(REMOVE_DUPLICATES documents)
 foreach(document ${documents})

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/kernels/contact_law.h"
+
 namespace beltlife {
 namespace {
 
@@ -45,7 +47,7 @@ void contact_powers(const DriveView& s, EnergyAccount& p) {
       if (d <= 0) continue;
       const double approach = -((q.vx[i] - c.vx) * dx + (q.vy[i] - c.vy) * dy) / r;
       // The law at this state, not the force of the last evaluation: the two lie up to a step apart.
-      normal += (normal_force(m.contact, d, approach) - m.contact.stiffness * d) * approach;
+      normal += (contact_law::normal_force(m.contact, d, approach) - m.contact.stiffness * d) * approach;
       friction -= w.tangential[i] * w.slip[i];
     }
   }

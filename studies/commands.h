@@ -16,6 +16,7 @@ struct StudyKind {
   int (*run)(const DriverOptions&);
   bool seeded;              ///< draws numbers, so that --seed means something
   std::string (*fields)();  ///< reference of its study file, as Markdown
+  std::string (*answer)();  ///< reference of its answer, as Markdown
 };
 const std::vector<StudyKind>& study_kinds();
 

@@ -9,9 +9,4 @@ namespace beltlife {
 
 std::span<const StudyPage> study_pages();
 
-/// Each kind's own part of its page.
-StudyPart convergence_part(const StudyRecord& record);
-StudyPart stability_part(const StudyRecord& record);
-StudyPart oat_part(const StudyRecord& record);
-
 }  // namespace beltlife

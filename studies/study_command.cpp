@@ -19,7 +19,12 @@ StudyKind kind(const char* about) {
   constexpr bool seeded = requires(typename Kind::Settings s) { s.seed; };
   const auto run =
       +[](const DriverOptions& o) { return run_driver<StudyDriver<Kind>>(o, std::string("study ") + name); };
-  return {name, about, run, seeded, reference_of<StudySpec<typename Kind::Settings>>};
+  return {name,
+          about,
+          run,
+          seeded,
+          reference_of<StudySpec<typename Kind::Settings>>,
+          reference_of_answer<typename Kind::Result>};
 }
 
 // Names as constants, so that a kind's name is part of the function that runs it.
@@ -50,6 +55,7 @@ void add_study_command(CommandLine& line) {
     Command command = study.command(kind.name, kind.about);
     driver_flags(command, *o, "study file (TOML)", kind.seeded);
     command.prints("--fields", kind.fields, "print the reference of the file's fields as Markdown")
+        .prints("--answer", kind.answer, "print the reference of the answer's parts as Markdown")
         .footer("Example:\n  beltlife study " + kind.name + " studies/examples/" + kind.name +
                 ".toml\nA run that is stopped goes on with the same command. Fields of the file: beltlife study " +
                 kind.name + " --fields, or studies/README.md.")

@@ -15,19 +15,21 @@
 namespace beltlife {
 namespace {
 
-using nlohmann::json;
-
 constexpr double last_order = 9.5;    ///< of the spectra: what the thesis shows
 constexpr std::size_t most_sets = 7;  ///< as many as there are colours
 
+/// One side of a picture; null where a run failed.
 struct Side {
-  const char *key, *label, *colour;
+  const CalculatedCurves* curves;
+  const char *label, *colour;
   int dash;
 };
 /// Calculated ones last: they are drawn above the measured.
-constexpr Side sides[] = {{"measured", "measured", "#000000", 1},
-                          {"start", "start", "#e69f00", 2},
-                          {"calibrated", "calibrated", "#0072b2", 1}};
+std::vector<Side> sides_of(const RecordPicture& p) {
+  return {{&p.measured, "measured", "#000000", 1},
+          {p.start ? &*p.start : nullptr, "start", "#e69f00", 2},
+          {p.calibrated ? &*p.calibrated : nullptr, "calibrated", "#0072b2", 1}};
+}
 
 /// Per cent of the way from the lower bound to the upper; NaN where there is no such place.
 double place_of(const FittedParameter& p, double v) {
@@ -77,19 +79,12 @@ std::pair<std::string, double> order_of(const std::string& quantity) {
   return {quantity.substr(0, at), end == begin || *end != '\0' ? NAN : order};
 }
 
-std::string unit_after(const std::string& words, const json& picture) {
-  const std::string unit = unit_of_name(text_in(picture, "channel"));
+std::string unit_after(const std::string& words, const RecordPicture& picture) {
+  const std::string unit = unit_of_name(picture.channel);
   return unit.empty() ? words : words + ", " + unit;
 }
 
 }  // namespace
-
-std::vector<double> numbers_of_list(const json& list) {
-  std::vector<double> numbers;
-  if (list.is_array())
-    for (const json& j : list) numbers.push_back(j.is_number() ? j.get<double>() : NAN);
-  return numbers;
-}
 
 std::string interval_chart(const std::string& id, const std::vector<FittedParameter>& parameters) {
   constexpr double pitch = 2;  // a row is a name and below it the track
@@ -166,19 +161,18 @@ std::string profile_chart(const std::string& id, const FittedParameter& p, doubl
   return svg_of(chart);
 }
 
-std::string cost_chart(const std::string& id, const json& answer) {
-  const json& fits = part_of(answer, "fits");
-  if (!fits.is_array() || fits.empty()) return "";
-  const double best = number_in(answer, "best_fit");
+std::string cost_chart(const std::string& id, const CalibrationAnswer& answer) {
+  const std::vector<FitAnswer>& fits = answer.fits;
+  if (fits.empty()) return "";
+  const auto best = static_cast<std::size_t>(answer.best_fit);
   MarkedChart chart{id, "", "points asked", "cost", false, true};
   bool others = false;
   // The final fit last and the best before it: neither is to be hidden by the rest.
   for (const int turn : {0, 1, 2})
     for (std::size_t k = 0; k < fits.size(); ++k) {
-      const bool last = k + 1 == fits.size() && k > 0, is_best = !last && static_cast<double>(k) == best;
-      if ((last ? 2 : is_best ? 1 : 0) != turn) continue;
-      MarkedChart::Series s{"", numbers_of_list(part_of(fits[k], "points")),
-                            numbers_of_list(part_of(fits[k], "costs"))};
+      const bool last = k + 1 == fits.size() && k > 0, is_best = !last && k == best;
+      if ((last ? 2 : is_best ? 1 : 0) != turn || !fits[k].points || !fits[k].costs) continue;
+      MarkedChart::Series s{"", {fits[k].points->begin(), fits[k].points->end()}, *fits[k].costs};
       const std::size_t count = std::min(s.x.size(), s.y.size());
       s.x.resize(count);
       s.y.resize(count);
@@ -193,8 +187,8 @@ std::string cost_chart(const std::string& id, const json& answer) {
   return svg_of(chart);
 }
 
-std::string spectrum_chart(const std::string& id, const json& picture) {
-  const double rpm = number_in(picture, "crank_rpm"), noise = number_in(picture, "noise");
+std::string spectrum_chart(const std::string& id, const RecordPicture& picture) {
+  const double rpm = picture.crank_rpm, noise = picture.noise;
   const double end = rpm > 0 ? last_order * rpm / 60 : INFINITY;
   MarkedChart chart{id,
                     "",
@@ -203,9 +197,9 @@ std::string spectrum_chart(const std::string& id, const json& picture) {
                     false,
                     true};
   double peak = 0;
-  for (const Side& side : sides) {
-    const json& curves = part_of(picture, side.key);
-    const auto x = numbers_of_list(part_of(curves, "frequency_hz")), y = numbers_of_list(part_of(curves, "amplitude"));
+  for (const Side& side : sides_of(picture)) {
+    if (!side.curves) continue;
+    const auto &x = side.curves->frequency_hz, &y = side.curves->amplitude;
     MarkedChart::Series s{side.label, {}, {}, {}, side.colour, 0, side.dash};
     for (std::size_t k = 0; k < std::min(x.size(), y.size()); ++k) {
       if (!(x[k] > 0 && x[k] <= end && std::isfinite(y[k]))) continue;
@@ -224,25 +218,22 @@ std::string spectrum_chart(const std::string& id, const json& picture) {
   return svg_of(chart);
 }
 
-std::string trace_chart(const std::string& id, const json& picture) {
-  const auto angle = numbers_of_list(part_of(part_of(picture, "measured"), "angle_deg"));
+std::string trace_chart(const std::string& id, const RecordPicture& picture) {
+  const std::vector<double>& angle = picture.measured.angle_deg;
   MarkedChart chart{id, "", "crank angle, deg", unit_after("deviation from the mean", picture)};
-  for (const Side& side : sides) {
-    auto y = numbers_of_list(part_of(part_of(picture, side.key), "trace"));
+  for (const Side& side : sides_of(picture)) {
     // Another number of places is another division of the revolutions.
-    if (y.empty() || y.size() != angle.size()) continue;
-    chart.series.push_back({side.label, angle, std::move(y), {}, side.colour, 0, side.dash});
+    if (!side.curves || side.curves->trace.empty() || side.curves->trace.size() != angle.size()) continue;
+    chart.series.push_back({side.label, angle, side.curves->trace, {}, side.colour, 0, side.dash});
   }
   return svg_of(chart);
 }
 
-std::string residual_chart(const std::string& id, const json& residuals) {
-  if (!residuals.is_array()) return "";
+std::string residual_chart(const std::string& id, const std::vector<ResidualAnswer>& residuals) {
   MarkedChart chart{id, "", "order of crank rotation", "residual, standard deviations"};
-  for (const json& row : residuals) {
-    const auto [set, order] = order_of(text_in(row, "quantity"));
-    const double residual = number_in(row, "residual");
-    if (!std::isfinite(order) || !std::isfinite(residual)) continue;
+  for (const ResidualAnswer& row : residuals) {
+    const auto [set, order] = order_of(row.quantity);
+    if (!std::isfinite(order) || !std::isfinite(row.residual)) continue;
     const auto found =
         std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.label == set; });
     const auto index = static_cast<std::size_t>(found - chart.series.begin());
@@ -250,7 +241,7 @@ std::string residual_chart(const std::string& id, const json& residuals) {
     if (index == chart.series.size())
       chart.series.push_back({set, {}, {}, {}, safe_colour(index), static_cast<int>(5 + 2 * (index % 4)), 0});
     chart.series[index].x.push_back(order);
-    chart.series[index].y.push_back(residual);
+    chart.series[index].y.push_back(row.residual);
   }
   if (chart.series.empty()) return "";
   chart.levels = {{"3 deviations", 3, 2}, {"", 0, 1}, {"", -3, 2}};

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "calibrate/calibration_result.h"
 
 namespace beltlife {
 
@@ -24,9 +25,6 @@ struct FittedParameter {
   bool wide() const { return bounded() && lower > 0 && upper >= 10 * lower; }
 };
 
-/// The numbers of a list, NaN for what is none; empty if it is no list.
-std::vector<double> numbers_of_list(const nlohmann::json& list);
-
 /// All of these return SVG as an element with this id; empty if there is nothing to draw.
 
 /// Value, intervals and start of each parameter that has bounds, as shares of the way between them.
@@ -34,12 +32,12 @@ std::string interval_chart(const std::string& id, const std::vector<FittedParame
 /// Cost over the parameter; `level` is the cost that the confidence allows, NaN for none.
 std::string profile_chart(const std::string& id, const FittedParameter& parameter, double level);
 /// Cost over points asked, a curve each of the answer's fits.
-std::string cost_chart(const std::string& id, const nlohmann::json& answer);
+std::string cost_chart(const std::string& id, const CalibrationAnswer& answer);
 /// Amplitude over frequency, measured and calculated, as far as the half order above the ninth.
-std::string spectrum_chart(const std::string& id, const nlohmann::json& picture);
+std::string spectrum_chart(const std::string& id, const RecordPicture& picture);
 /// Deviation from the mean over two crank revolutions.
-std::string trace_chart(const std::string& id, const nlohmann::json& picture);
+std::string trace_chart(const std::string& id, const RecordPicture& picture);
 /// Residuals of order amplitudes over the order, a colour each range and channel.
-std::string residual_chart(const std::string& id, const nlohmann::json& residuals);
+std::string residual_chart(const std::string& id, const std::vector<ResidualAnswer>& residuals);
 
 }  // namespace beltlife

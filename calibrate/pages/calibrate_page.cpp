@@ -15,50 +15,52 @@
 namespace beltlife {
 namespace {
 
-using nlohmann::json;
-
 constexpr double alarming_residual = 3, alarming_correlation = 0.9;
 
-FittedParameter parameter_of(const std::string& name, const json& j) {
-  FittedParameter p{name, text_in(j, "identified"), text_in(j, "at_bound")};
-  p.value = number_in(j, "value");
-  p.standard_error = number_in(j, "standard_error");
-  p.low = number_in(j, "low");
-  p.high = number_in(j, "high");
-  p.start = number_in(j, "start");
-  p.lower = number_in(j, "lower");
-  p.upper = number_in(j, "upper");
-  const json& profile = part_of(j, "profile");
-  p.profile_low = number_in(profile, "low");
-  p.profile_high = number_in(profile, "high");
-  p.profile_value = numbers_of_list(part_of(profile, "value"));
-  p.profile_cost = numbers_of_list(part_of(profile, "cost"));
+FittedParameter parameter_of(const std::string& name, const FittedValue& v) {
+  FittedParameter p{name, v.identified, v.at_bound};
+  p.value = v.value;
+  p.standard_error = v.standard_error;
+  p.low = v.low;
+  p.high = v.high;
+  p.start = v.start;
+  p.lower = v.lower.value_or(not_known);
+  p.upper = v.upper.value_or(not_known);
+  if (!v.profile) return p;
+  p.profile_low = v.profile->low;
+  p.profile_high = v.profile->high;
+  p.profile_value = v.profile->value;
+  p.profile_cost = v.profile->cost;
   return p;
 }
 
 /// In the study's order; the answer has them by name.
-std::vector<FittedParameter> parameters_of(const StudyRecord& record) {
+std::vector<FittedParameter> parameters_of(const StudyRecord& record, const CalibrationAnswer& answer) {
   std::vector<FittedParameter> all;
-  const json& given = part_of(record.answer, "parameters");
   for (const std::string& name : record.head.parameters)
-    if (const json& j = part_of(given, name); j.is_object()) all.push_back(parameter_of(name, j));
+    if (const auto at = answer.parameters.find(name); at != answer.parameters.end())
+      all.push_back(parameter_of(name, at->second));
   return all;
 }
 
-std::string confidence_text(const json& answer) {
-  const double confidence = number_in(answer, "confidence");
-  return confidence > 0 ? digits_text(100 * confidence) + " %" : "interval";
+std::string confidence_text(const CalibrationAnswer& answer) {
+  return answer.confidence > 0 ? digits_text(100 * answer.confidence) + " %" : "interval";
 }
 
-std::string percent_change(double share) { return std::isfinite(share) ? fmt::format("{:+.1f}", 100 * share) : "-"; }
+std::string percent_change(double share) {
+  return std::isfinite(share) ? fmt::format("{:+.1f}", 100 * share) : "not known";
+}
 
-std::string range_text(double low, double high) {
-  return std::isnan(low) && std::isnan(high) ? "-" : digits_text(low) + " to " + digits_text(high);
+/// "0.1 to 0.3"; `none` says why there is no interval.
+std::string range_text(double low, double high, const char* none) {
+  if (std::isnan(low) && std::isnan(high)) return none;
+  const auto end = [](double v) { return std::isnan(v) ? std::string("not reached") : digits_text(v); };
+  return end(low) + " to " + end(high);
 }
 
 /// A word of the answer that alarms unless it is the good one.
 Cell flag_cell(const std::string& word, const char* good) {
-  return word.empty() ? Cell("-") : Cell(word, word != good);
+  return word.empty() ? Cell("not in this log") : Cell(word, word != good);
 }
 
 /// A chart that stands alone would be as wide as the page.
@@ -66,27 +68,25 @@ std::string single_chart(const std::string& svg) {
   return svg.empty() ? "" : "<div style=\"max-width:600px\">" + svg + "</div>\n";
 }
 
-bool beyond_thesis(const json& row) {
-  return std::abs(number_in(row, "calibrated_error")) > number_in(row, "thesis_error");
-}
+bool beyond_thesis(const MainFrequency& row) { return std::abs(row.calibrated_error) > row.thesis_error; }
 
 /// The remark without which no other number is to be read.
 bool is_alarm(const std::string& remark) { return remark.starts_with("Not converged"); }
 
-std::string lead_of(const json& answer, const std::vector<FittedParameter>& parameters) {
+std::string lead_of(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
   std::string words = error_words(answer);
-  const std::vector<std::string> remarks = texts_in(answer, "remarks");
+  const std::vector<std::string>& remarks = answer.remarks;
   const bool told = std::any_of(remarks.begin(), remarks.end(), is_alarm);
-  if (words.empty() && part_of(answer, "converged").is_boolean() && !told)
-    words += flag_in(answer, "converged") ? "The fit has <strong>converged</strong>. "
-                                          : "<strong class=\"alarm\">The fit has not converged.</strong> ";
+  if (words.empty() && !answer.fits.empty() && !told)
+    words += answer.converged ? "The fit has <strong>converged</strong>. "
+                              : "<strong class=\"alarm\">The fit has not converged.</strong> ";
   for (const std::string& remark : remarks)
     if (is_alarm(remark)) words += "<strong class=\"alarm\">" + html_escaped(remark) + "</strong> ";
   const auto settled =
       std::count_if(parameters.begin(), parameters.end(), [](const auto& p) { return p.identified == "yes"; });
   if (!parameters.empty())
     words += fmt::format("The data settle <strong>{} of {}</strong> parameters. ", settled, parameters.size());
-  const auto rows = rows_of(answer, "main_frequencies");
+  const std::vector<MainFrequency>& rows = answer.main_frequencies;
   if (!rows.empty())
     words += fmt::format(
         "At <a href=\"#main\">main frequencies</a>, <strong>{} of {}</strong> amplitudes are as near to "
@@ -97,31 +97,33 @@ std::string lead_of(const json& answer, const std::vector<FittedParameter>& para
   return words;
 }
 
-std::vector<Row> key_numbers_of(const json& answer) {
+std::vector<Row> key_numbers_of(const CalibrationAnswer& answer) {
   std::vector<Row> rows;
-  const auto add = [&](const char* words, const char* key, int digits, double factor = 1) {
-    if (const double v = number_in(answer, key); !std::isnan(v))
-      rows.push_back({words, digits_text(factor * v, digits)});
+  const auto add = [&](const char* words, double v, int digits) {
+    if (!std::isnan(v)) rows.push_back({words, digits_text(v, digits)});
   };
-  add("cost at the start", "start_cost", 4);
-  add("cost of the calibrated", "cost", 4);
-  add("degrees of freedom", "degrees_of_freedom", 6);
-  add("residual variance (1: as stated)", "residual_variance", 3);
-  add("probability of such residuals", "probability_of_residuals", 2);
-  add("confidence of intervals, %", "confidence", 4, 100);
-  add("standard errors to the minimum", "remaining_standard_errors", 2);
-  add("noise of the model, relative", "noise", 2);
+  add("cost at the start", answer.start_cost, 4);
+  add("cost of the calibrated", answer.cost, 4);
+  add("degrees of freedom", answer.degrees_of_freedom, 6);
+  add("residual variance (1: as stated)", answer.residual_variance, 3);
+  add("probability of such residuals", answer.probability_of_residuals, 2);
+  add("confidence of intervals, %", 100 * answer.confidence, 4);
+  add("standard errors to the minimum", answer.remaining_standard_errors, 2);
+  add("noise of the model, relative", answer.noise, 2);
   return rows;
 }
 
-Section parameters_section(const json& answer, const std::vector<FittedParameter>& parameters) {
+Section parameters_section(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
   if (parameters.empty()) return {"parameters", "", ""};
   std::vector<Row> values, intervals;
   for (const FittedParameter& p : parameters) {
-    values.push_back({p.name, digits_text(p.start, 4), digits_text(p.value, 5), digits_text(p.standard_error, 2),
+    values.push_back({p.name, digits_text(p.start, 4), digits_text(p.value, 5),
+                      std::isfinite(p.standard_error) ? digits_text(p.standard_error, 2) : "the data say nothing",
                       unit_of_name(p.name), flag_cell(p.identified, "yes"), flag_cell(p.at_bound, "no")});
-    intervals.push_back({p.name, range_text(p.low, p.high), range_text(p.profile_low, p.profile_high),
-                         range_text(p.lower, p.upper), unit_of_name(p.name)});
+    intervals.push_back(
+        {p.name, range_text(p.low, p.high, "the data say nothing"),
+         range_text(p.profile_low, p.profile_high, p.profile_value.empty() ? "no profile" : "not reached"),
+         range_text(p.lower, p.upper, "none"), unit_of_name(p.name)});
   }
   std::string html =
       "<section id=\"parameters\"><h2>Parameters</h2>\n" +
@@ -133,17 +135,17 @@ Section parameters_section(const json& answer, const std::vector<FittedParameter
   return {"parameters", "Parameters", html};
 }
 
-Section main_section(const json& answer) {
+constexpr const char* failed_start = "failed";  ///< of what the model gives where it did not run
+
+std::string start_change(double share) { return std::isnan(share) ? failed_start : percent_change(share); }
+
+Section main_section(const CalibrationAnswer& answer) {
   std::vector<Row> rows;
-  for (const json& r : rows_of(answer, "main_frequencies")) {
-    const std::string channel = text_in(r, "channel");
-    rows.push_back({text_in(r, "range") + "." + channel, digits_text(number_in(r, "order")),
-                    digits_text(number_in(r, "hz"), 4),
-                    Cell(percent_change(number_in(r, "calibrated_error")), beyond_thesis(r)),
-                    percent_change(number_in(r, "start_error")), digits_text(100 * number_in(r, "thesis_error")),
-                    digits_text(number_in(r, "measured"), 4), digits_text(number_in(r, "calibrated"), 4),
-                    digits_text(number_in(r, "start"), 4), unit_of_name(channel)});
-  }
+  for (const MainFrequency& r : answer.main_frequencies)
+    rows.push_back({r.range + "." + r.channel, digits_text(r.order), digits_text(r.hz, 4),
+                    Cell(percent_change(r.calibrated_error), beyond_thesis(r)), start_change(r.start_error),
+                    digits_text(100 * r.thesis_error), digits_text(r.measured, 4), digits_text(r.calibrated, 4),
+                    std::isnan(r.start) ? failed_start : digits_text(r.start, 4), unit_of_name(r.channel)});
   if (rows.empty()) return {"main", "", ""};
   return {"main", "Main frequencies",
           "<section id=\"main\"><h2>Amplitudes at main frequencies</h2>\n<p>The order that is largest in each measured "
@@ -155,29 +157,28 @@ Section main_section(const json& answer) {
               "</section>\n"};
 }
 
-std::string picture_html(const json& picture, std::size_t index) {
-  std::string html = fmt::format("<h3>{}, {}</h3>\n<p>{}", html_escaped(text_in(picture, "range")),
-                                 html_escaped(text_in(picture, "channel")), html_escaped(text_in(picture, "file")));
-  const std::string unit = unit_of_name(text_in(picture, "channel"));
-  if (const double rpm = number_in(picture, "crank_rpm"); rpm > 0)
-    html += fmt::format(": crank at {} r/min", digits_text(rpm, 5));
-  if (const double windows = number_in(picture, "windows"); windows > 0) html += fmt::format(", {:g} windows", windows);
-  if (const double noise = number_in(picture, "noise"); noise > 0)
-    html += fmt::format(", an order's amplitude uncertain by {}{}{} of noise", digits_text(noise),
+std::string picture_html(const RecordPicture& picture, std::size_t index) {
+  std::string html = fmt::format("<h3>{}, {}</h3>\n<p>{}", html_escaped(picture.range), html_escaped(picture.channel),
+                                 html_escaped(picture.file));
+  const std::string unit = unit_of_name(picture.channel);
+  if (picture.crank_rpm > 0) html += fmt::format(": crank at {} r/min", digits_text(picture.crank_rpm, 5));
+  if (picture.windows > 0) html += fmt::format(", {} windows", picture.windows);
+  if (picture.noise > 0)
+    html += fmt::format(", an order's amplitude uncertain by {}{}{} of noise", digits_text(picture.noise),
                         unit.empty() ? "" : " ", html_escaped(unit));
   html += ".</p>\n";
   const std::string charts =
       spectrum_chart(fmt::format("spectrum-{}", index), picture) + trace_chart(fmt::format("trace-{}", index), picture);
   if (!charts.empty()) html += "<div class=\"charts\">" + charts + "</div>\n";
   std::string list;
-  for (const std::string& words : texts_in(picture, "left_out")) list += "<li>" + html_escaped(words) + "</li>\n";
+  for (const std::string& words : picture.left_out) list += "<li>" + html_escaped(words) + "</li>\n";
   if (!list.empty()) html += "<details><summary>Left out of this file</summary><ul>\n" + list + "</ul></details>\n";
   return html;
 }
 
-Section pictures_section(const json& answer) {
-  const auto pictures = rows_of(answer, "pictures");
-  if (pictures.empty()) return {"pictures", "", ""};
+Section pictures_section(const CalibrationAnswer& answer) {
+  if (!answer.pictures || answer.pictures->empty()) return {"pictures", "", ""};
+  const std::vector<RecordPicture>& pictures = *answer.pictures;
   std::string html =
       "<section id=\"pictures\"><h2>Measured and calculated</h2>\n<p>Spectra as far as order 9.5, cut off well below "
       "the "
@@ -188,33 +189,34 @@ Section pictures_section(const json& answer) {
   return {"pictures", "Spectra and traces", html + "</section>\n"};
 }
 
-Section residuals_section(const json& answer) {
+Row residual_row(const ResidualAnswer& r) {
+  const auto deviation = [&](double v) { return r.logarithm ? percent_text(v) + " %" : digits_text(v, 2); };
+  return {r.quantity,
+          Cell(std::isnan(r.residual) ? "not known" : fmt::format("{:+.2f}", r.residual),
+               std::abs(r.residual) > alarming_residual),
+          digits_text(r.measured, 4),
+          digits_text(r.calibrated, 4),
+          unit_of_name(r.quantity),
+          percent_change(r.calibrated_error),
+          start_change(r.start_error),
+          deviation(r.sigma),
+          deviation(r.model_noise)};
+}
+
+Section residuals_section(const CalibrationAnswer& answer) {
+  if (answer.residuals.empty()) return {"residuals", "", ""};
   std::vector<Row> rows;
   std::size_t far = 0;
-  for (const json& r : rows_of(answer, "residuals")) {
-    const std::string name = text_in(r, "quantity");
-    const bool relative = flag_in(r, "logarithm");
-    const double residual = number_in(r, "residual");
-    const auto deviation = [&](const char* key) {
-      return relative && !std::isnan(number_in(r, key)) ? percent_text(number_in(r, key)) + " %"
-                                                        : digits_text(number_in(r, key), 2);
-    };
-    far += std::abs(residual) > alarming_residual;
-    rows.push_back(
-        {name,
-         Cell(std::isnan(residual) ? "-" : fmt::format("{:+.2f}", residual), std::abs(residual) > alarming_residual),
-         digits_text(number_in(r, "measured"), 4), digits_text(number_in(r, "calibrated"), 4), unit_of_name(name),
-         percent_change(number_in(r, "calibrated_error")), percent_change(number_in(r, "start_error")),
-         deviation("sigma"), deviation("model_noise")});
+  for (const ResidualAnswer& r : answer.residuals) {
+    far += std::abs(r.residual) > alarming_residual;
+    rows.push_back(residual_row(r));
   }
-  if (rows.empty()) return {"residuals", "", ""};
-  const std::string chart = residual_chart("residuals-by-order", part_of(answer, "residuals"));
   return {"residuals", "Residuals",
           fmt::format(
               "<section id=\"residuals\"><h2>Residuals</h2>\n<p>Calculated less measured, in standard deviations: the "
               "stated one and the model's own noise, added in squares. {} of {} exceed {:g}.</p>\n",
               far, rows.size(), alarming_residual) +
-              single_chart(chart) +
+              single_chart(residual_chart("residuals-by-order", answer.residuals)) +
               html_table("study-residuals",
                          {"quantity", "residual", "measured", "calibrated", "unit", "error, %", "at the start, %",
                           "stated ±", "model's ±"},
@@ -224,57 +226,64 @@ Section residuals_section(const json& answer) {
 
 /// A cell as blue as the correlation is high, as orange as it is low.
 std::string shaded_cell(double r) {
-  if (std::isnan(r)) return "<td>-</td>";
+  if (std::isnan(r)) return "<td>none</td>";
   return fmt::format("<td{} style=\"background:rgba({},{:.2f})\">{:+.2f}</td>",
                      std::abs(r) > alarming_correlation && std::abs(r) < 1 - 1e-9 ? " class=\"alarm\"" : "",
                      r > 0 ? "86,180,233" : "230,159,0", 0.5 * std::min(std::abs(r), 1.0), r);
 }
 
+double correlation_in(const CalibrationAnswer& answer, const std::string& a, const std::string& b) {
+  const auto row = answer.correlation.find(a);
+  if (row == answer.correlation.end()) return not_known;
+  const auto at = row->second.find(b);
+  return at == row->second.end() ? not_known : at->second;
+}
+
 /// Rows and columns in the order of the parameters, numbered: names side by side would not fit.
-std::string correlation_table(const json& answer, const std::vector<FittedParameter>& parameters) {
-  const json &given = part_of(answer, "correlation"), &direction = part_of(part_of(answer, "weakest"), "direction");
-  if (!given.is_object() || parameters.empty()) return "";
+std::string correlation_table(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
+  if (answer.correlation.empty() || parameters.empty()) return "";
+  const auto& weakest = answer.weakest.value;
   std::string html = "<div class=\"scroll\"><table id=\"study-correlation\"><thead><tr><th class=\"w\"></th>";
   for (std::size_t i = 0; i < parameters.size(); ++i) html += fmt::format("<th>({})</th>", i + 1);
-  html += direction.is_object() ? "<th>weakest direction</th></tr></thead><tbody>\n" : "</tr></thead><tbody>\n";
+  html += weakest ? "<th>weakest direction</th></tr></thead><tbody>\n" : "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    html += fmt::format("<tr><td class=\"w\">({}) {}</td>", i + 1, html_escaped(parameters[i].name));
+    const std::string& name = parameters[i].name;
+    html += fmt::format("<tr><td class=\"w\">({}) {}</td>", i + 1, html_escaped(name));
     for (const FittedParameter& other : parameters)
-      html += other.name == parameters[i].name ? "<td>1</td>"
-                                               : shaded_cell(number_in(part_of(given, parameters[i].name), other.name));
-    if (direction.is_object()) {
-      const double share = number_in(direction, parameters[i].name);
-      html += "<td>" + (std::isnan(share) ? std::string("-") : fmt::format("{:+.2f}", share)) + "</td>";
+      html += other.name == name ? "<td>1</td>" : shaded_cell(correlation_in(answer, name, other.name));
+    if (weakest) {
+      const auto share = weakest->direction.find(name);
+      html += share == weakest->direction.end() ? std::string("<td>none</td>")
+                                                : fmt::format("<td>{:+.2f}</td>", share->second);
     }
     html += "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
 }
 
-Section correlation_section(const json& answer, const std::vector<FittedParameter>& parameters) {
+Section correlation_section(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
   std::string html = correlation_table(answer, parameters);
   std::string list;
-  for (const double v : numbers_of_list(part_of(answer, "eigenvalues")))
-    list += (list.empty() ? "" : ", ") + digits_text(v);
+  for (const double v : answer.eigenvalues) list += (list.empty() ? "" : ", ") + digits_text(v);
   if (!list.empty())
     html += "<p>Eigenvalues of the curvature, every parameter scaled to 1: " + list +
             ". The nearer to 0 the first, the less the data say about its direction.</p>\n";
-  if (const std::string words = text_in(part_of(answer, "weakest"), "words"); !words.empty())
-    html += "<p>" + html_escaped(words) + "</p>\n";
+  if (answer.weakest.value && !answer.weakest.value->words.empty())
+    html += "<p>" + html_escaped(answer.weakest.value->words) + "</p>\n";
   if (html.empty()) return {"correlation", "", ""};
   return {
       "correlation", "What stands in for what",
       "<section id=\"correlation\"><h2>What stands in for what</h2>\n<p>Correlations of the estimates; beyond 0.9 two "
-      "parameters can hardly be told apart.</p>\n" +
+      "parameters can hardly be told apart. Of a parameter that the data say nothing about there are none.</p>\n" +
           html + "</section>\n"};
 }
 
-Section profiles_section(const json& answer, const std::vector<FittedParameter>& parameters) {
-  const double confidence = number_in(answer, "confidence"), freedom = number_in(answer, "degrees_of_freedom");
+Section profiles_section(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
+  const double confidence = answer.confidence, freedom = answer.degrees_of_freedom;
   double level = NAN;
   if (confidence > 0 && confidence < 1 && freedom > 0) {
-    const double t = student_t_quantile(confidence, freedom), scale = number_in(answer, "error_scale");
-    level = number_in(answer, "cost") + 0.5 * t * t * scale * scale;
+    const double t = student_t_quantile(confidence, freedom), scale = answer.error_scale;
+    level = answer.cost + 0.5 * t * t * scale * scale;
   }
   std::string charts;
   for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -288,21 +297,22 @@ Section profiles_section(const json& answer, const std::vector<FittedParameter>&
               charts + "</div></section>\n"};
 }
 
-Section fits_section(const json& answer, const std::vector<FittedParameter>& parameters) {
-  const auto fits = rows_of(answer, "fits");
+Section fits_section(const CalibrationAnswer& answer, const std::vector<FittedParameter>& parameters) {
+  const std::vector<FitAnswer>& fits = answer.fits;
   if (fits.empty()) return {"fits", "", ""};
   Row header{"fit", "cost at its start", "cost", "ended"};
   for (std::size_t i = 0; i < parameters.size(); ++i) header.push_back(fmt::format("({})", i + 1));
-  const double best = number_in(answer, "best_fit");
   std::vector<Row> rows;
   for (std::size_t k = 0; k < fits.size(); ++k) {
-    const bool last = k + 1 == fits.size() && k > 0,
-               failed = part_of(fits[k], "ok").is_boolean() && !flag_in(fits[k], "ok");
-    Row row{last ? "final" : fmt::format("{}{}", k + 1, static_cast<double>(k) == best ? ", the best" : ""),
-            digits_text(number_in(fits[k], "start_cost"), 4), digits_text(number_in(fits[k], "cost"), 4),
-            Cell(text_in(fits[k], "ended"), failed)};
-    for (const FittedParameter& p : parameters)
-      row.push_back(digits_text(number_in(part_of(fits[k], "parameters"), p.name), 4));
+    const FitAnswer& f = fits[k];
+    const bool last = k + 1 == fits.size() && k > 0;
+    Row row{last ? "final"
+                 : fmt::format("{}{}", k + 1, static_cast<std::int64_t>(k) == answer.best_fit ? ", the best" : ""),
+            digits_text(f.start_cost, 4), std::isnan(f.cost) ? "failed" : digits_text(f.cost, 4), Cell(f.ended, !f.ok)};
+    for (const FittedParameter& p : parameters) {
+      const auto at = f.parameters.find(p.name);
+      row.push_back(at == f.parameters.end() ? "not in this log" : digits_text(at->second, 4));
+    }
     rows.push_back(std::move(row));
   }
   std::string legend;
@@ -318,9 +328,8 @@ Section fits_section(const json& answer, const std::vector<FittedParameter>& par
 
 }  // namespace
 
-StudyPart calibrate_part(const StudyRecord& record) {
-  const json& answer = record.answer;
-  const std::vector<FittedParameter> parameters = parameters_of(record);
+StudyPart calibrate_part(const StudyRecord& record, const CalibrationAnswer& answer) {
+  const std::vector<FittedParameter> parameters = parameters_of(record, answer);
   StudyPart part;
   part.lead = lead_of(answer, parameters);
   part.key_numbers = key_numbers_of(answer);
@@ -335,9 +344,12 @@ StudyPart calibrate_part(const StudyRecord& record) {
 }
 
 const StudyPage& calibration_page() {
-  static constexpr StudyPage page{
-      "calibrate",    "Calibration", "with which parameters the model answers as was measured",
-      calibrate_part, false,         "A step that fails is shortened, and a start that fails is passed over."};
+  static constexpr StudyPage page{"calibrate",
+                                  "Calibration",
+                                  "with which parameters the model answers as was measured",
+                                  typed_part<CalibrationAnswer, calibrate_part>,
+                                  false,
+                                  "A step that fails is shortened, and a start that fails is passed over."};
   return page;
 }
 

@@ -10,6 +10,15 @@
 
 namespace beltlife {
 
+/// A limit with what is asked for. `value` of a Clearance is what is left to the bound, negative beyond it.
+struct LayoutLimit : Clearance {
+  double bound = 0;
+  bool at_most = false;  ///< the bound is an upper one
+
+  /// What the layout has, in the limit's unit.
+  double measured() const { return at_most ? bound - value : bound + value; }
+};
+
 /// Every limit as a signed distance: what there is less what is wanted, negative where the limit is broken. Number,
 /// order and names depend on the pulleys' names, on the ranges, on the way the belt's length is stated and on the spec
 /// alone, so that limit k of one layout is limit k of any other. In this order, with their units:
@@ -34,8 +43,8 @@ namespace beltlife {
 /// limits of a layout that cannot be built, or that the quasi-static solution refuses, are those of no travel, of a
 /// slip safety of 0, of twice the permitted load; take-up limits then count from no reach. Nothing for a ring. Never
 /// throws for a valid scene.
-std::vector<Clearance> layout_limits(const SceneSpec& scene, const LayoutLimitsSpec& spec,
-                                     RunningDetail detail = RunningDetail::with_bending_loss);
+std::vector<LayoutLimit> layout_limits(const SceneSpec& scene, const LayoutLimitsSpec& spec,
+                                       RunningDetail detail = RunningDetail::with_bending_loss);
 
 /// Appends what is contradictory in the spec to log.problems: names that are no pulley of the scene, keep-outs without
 /// a shape, boxes without an inside. `path` is where the table stands.

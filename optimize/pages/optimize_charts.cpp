@@ -5,20 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 
-#include "calibrate/pages/calibrate_charts.h"
 #include "results/pages/study/study_charts.h"
 #include "results/pages/study/study_parts.h"
 
 namespace beltlife {
 namespace {
-
-using nlohmann::json;
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<std::size_t> column_of(const StudyRecord& record, const std::string& quantity) {
   const auto& names = record.head.quantities;
@@ -28,40 +22,52 @@ std::optional<std::size_t> column_of(const StudyRecord& record, const std::strin
 }
 
 double value_of(const StudyPoint& p, std::size_t column) {
-  return p.answer.ok() && column < p.answer.values.size() ? p.answer.values[column] : none;
+  return p.answer.ok() && column < p.answer.values.size() ? p.answer.values[column] : not_known;
 }
 
 /// Whether the search itself asked for the point: after the check, before the replicates.
-bool of_search(const StudyPoint& p, const json& answer) {
-  const double check = number_in(answer, "check_simulations"), search = number_in(answer, "search_simulations");
-  const auto number = static_cast<double>(p.number);
-  return number >= check && number < check + search;
+bool of_search(const StudyPoint& p, const SearchAnswer& answer) {
+  const auto number = static_cast<std::int64_t>(p.number);
+  return number >= answer.check_simulations && number < answer.check_simulations + answer.search_simulations;
 }
 
-std::string objective_of(const json& answer) { return text_in(part_of(answer, "objective"), "quantity"); }
+/// A logarithm of hours as hours.
+double hours_of(double log) { return std::abs(log) < 100 ? std::pow(10, log) : not_known; }
+
+Bars::Layer lives_layer(const char* which, const std::vector<std::string>& ranges, const RangeLives* lives) {
+  Bars::Layer layer{which, {}};
+  for (const std::string& range : ranges) {
+    const bool known = lives && lives->contains(range);
+    const ReplicateMean life = known ? lives->at(range) : ReplicateMean{};
+    layer.values.push_back(hours_of(life.mean));
+    layer.low.push_back(hours_of(life.low));
+    layer.high.push_back(hours_of(life.high));
+  }
+  return layer;
+}
 
 }  // namespace
 
-std::string history_chart(const std::string& id, const StudyRecord& record) {
-  const json &answer = record.answer, &history = part_of(answer, "history");
-  const auto at = numbers_of_list(part_of(history, "simulations")),
-             best = numbers_of_list(part_of(history, "objective"));
+std::string history_chart(const std::string& id, const StudyRecord& record, const SearchAnswer& answer) {
+  const std::vector<std::int64_t>& at = answer.history.simulations;
+  const std::vector<double>& best = answer.history.objective;
   MarkedChart::Series steps{"best so far", {}, {}, {}, "#0072b2", 0};
   double low = INFINITY, high = -INFINITY;
   for (std::size_t k = 0; k < std::min(at.size(), best.size()); ++k) {
-    if (!std::isfinite(at[k]) || !std::isfinite(best[k])) continue;
-    if (!steps.y.empty()) steps.x.push_back(at[k]), steps.y.push_back(steps.y.back());
-    steps.x.push_back(at[k]);
+    if (!std::isfinite(best[k])) continue;
+    const auto x = static_cast<double>(at[k]);
+    if (!steps.y.empty()) steps.x.push_back(x), steps.y.push_back(steps.y.back());
+    steps.x.push_back(x);
     steps.y.push_back(best[k]);
     low = std::min(low, best[k]);
     high = std::max(high, best[k]);
   }
-  MarkedChart chart{id, "", "simulations of the search", with_unit(objective_of(answer))};
+  MarkedChart chart{id, "", "simulations of the search", with_unit(answer.objective.quantity)};
   MarkedChart::Series marks{"a simulation, limits kept or not", {}, {}, {}, "#999999", 7, 0, 0.6};
-  const auto column = column_of(record, objective_of(answer));
-  const double check = number_in(answer, "check_simulations"), reach = high > low ? high - low : INFINITY;
+  const auto column = column_of(record, answer.objective.quantity);
+  const double check = static_cast<double>(answer.check_simulations), reach = high > low ? high - low : INFINITY;
   for (const StudyPoint& p : record.points) {
-    const double v = column ? value_of(p, *column) : none;
+    const double v = column ? value_of(p, *column) : not_known;
     // A few far out would press all others into a line.
     if (!of_search(p, answer) || !(v > low - reach && v < high + reach)) continue;
     marks.x.push_back(static_cast<double>(p.number) - check + 1);
@@ -71,39 +77,26 @@ std::string history_chart(const std::string& id, const StudyRecord& record) {
   return svg_of(chart);
 }
 
-std::string lives_chart(const std::string& id, const json& lives) {
+std::string lives_chart(const std::string& id, const LivesAnswer& lives) {
+  if (!lives.best.value) return "";
   Bars chart{id, "life, h", {}, {}, true};
-  const json& best = part_of(lives, "best");
-  if (!best.is_object()) return "";
-  for (const auto& [range, life] : best.items()) chart.rows.push_back(range);
-  for (const char* which : {"start", "best"}) {
-    Bars::Layer layer{which, {}};
-    const auto hours = [](const json& life, const char* key) {
-      const double log = number_in(life, key);
-      return std::abs(log) < 100 ? std::pow(10, log) : none;
-    };
-    for (const std::string& range : chart.rows) {
-      const json& life = part_of(part_of(lives, which), range);
-      layer.values.push_back(hours(life, "mean"));
-      layer.low.push_back(hours(life, "low"));
-      layer.high.push_back(hours(life, "high"));
-    }
+  for (const auto& [range, life] : *lives.best.value) chart.rows.push_back(range);
+  const RangeLives* start = lives.start && lives.start->value ? &*lives.start->value : nullptr;
+  for (Bars::Layer layer :
+       {lives_layer("start", chart.rows, start), lives_layer("best", chart.rows, &*lives.best.value)})
     if (std::any_of(layer.values.begin(), layer.values.end(), [](double v) { return std::isfinite(v); }))
       chart.layers.push_back(std::move(layer));
-  }
   return chart.layers.empty() ? "" : svg_of(chart);
 }
 
-std::string fidelity_chart(const std::string& id, const StudyRecord& record) {
-  const json& answer = record.answer;
-  const auto column = column_of(record, objective_of(answer));
-  const double check = number_in(answer, "check_simulations");
-  if (!column || !(check > 0)) return "";
+std::string fidelity_chart(const std::string& id, const StudyRecord& record, const SearchAnswer& answer) {
+  const auto column = column_of(record, answer.objective.quantity);
+  if (!column || answer.check_simulations <= 0) return "";
   std::map<Point, std::vector<const StudyPoint*>> layouts;  // by all but the settings of the run
   for (const StudyPoint& p : record.points)
-    if (static_cast<double>(p.number) < check && !p.settings.empty())
+    if (static_cast<std::int64_t>(p.number) < answer.check_simulations && !p.settings.empty())
       layouts[Point(p.settings.begin() + 1, p.settings.end())].push_back(&p);
-  MarkedChart chart{id, "", "coarse: " + with_unit(objective_of(answer)), "fine"};
+  MarkedChart chart{id, "", "coarse: " + with_unit(answer.objective.quantity), "fine"};
   MarkedChart::Series marks{"", {}, {}, {}, safe_colour(0), 7, 0};
   for (const auto& [layout, pair] : layouts) {
     if (pair.size() != 2) continue;  // several draws a layout: which belongs to which is not in the log
@@ -115,9 +108,9 @@ std::string fidelity_chart(const std::string& id, const StudyRecord& record) {
   return svg_of(chart);
 }
 
-std::string front_chart(const std::string& id, const StudyRecord& record) {
-  const json &answer = record.answer, &pareto = part_of(answer, "pareto"), &front = part_of(pareto, "front");
-  const std::string first = objective_of(answer), second = text_in(pareto, "quantity");
+std::string front_chart(const std::string& id, const StudyRecord& record, const SearchAnswer& answer) {
+  if (!answer.pareto) return "";
+  const std::string first = answer.objective.quantity, second = answer.pareto->quantity;
   const auto x = column_of(record, first), y = column_of(record, second);
   MarkedChart chart{id, "", with_unit(first), with_unit(second)};
   MarkedChart::Series line{"front", {}, {}, {}, "#0072b2", 7, 3, 1.2}, all{"a simulation", {}, {}, {}, "#999999", 7, 0};
@@ -127,20 +120,18 @@ std::string front_chart(const std::string& id, const StudyRecord& record) {
     low_x = std::min(low_x, a), high_x = std::max(high_x, a);
     low_y = std::min(low_y, b), high_y = std::max(high_y, b);
   };
-  if (front.is_array())
-    for (const json& j : front) {
-      const double a = number_in(j, "objective"), b = number_in(j, "second");
-      if (!std::isfinite(a) || !std::isfinite(b)) continue;
-      line.x.push_back(a);
-      line.y.push_back(b);
-      line.names.push_back(digits_text(number_in(j, "point"), 9));
-      hold(a, b);
-    }
+  for (const FrontDesign& design : answer.pareto->front) {
+    if (!std::isfinite(design.objective) || !std::isfinite(design.second)) continue;
+    line.x.push_back(design.objective);
+    line.y.push_back(design.second);
+    line.names.push_back(std::to_string(design.point));
+    hold(design.objective, design.second);
+  }
   if (line.x.empty()) return "";
-  const json& start = part_of(answer, "start");
+  const auto& quantities = answer.start.quantities.value;
+  const bool known = quantities && quantities->contains(second);
   MarkedChart::Series from{
-      "start", {number_in(start, "objective")}, {number_in(part_of(start, "quantities"), second)}, {}, "#d55e00", 5, 0,
-      1.2};
+      "start", {answer.start.objective}, {known ? quantities->at(second) : not_known}, {}, "#d55e00", 5, 0, 1.2};
   if (std::isfinite(from.x[0]) && std::isfinite(from.y[0])) hold(from.x[0], from.y[0]);
   const double reach_x = std::max(high_x - low_x, 1e-9), reach_y = std::max(high_y - low_y, 1e-9);
   for (const StudyPoint& p : record.points) {

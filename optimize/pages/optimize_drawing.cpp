@@ -7,15 +7,12 @@
 #include <numbers>
 #include <vector>
 
-#include "calibrate/pages/calibrate_charts.h"
 #include "optimize/pages/optimize_charts.h"
 #include "results/pages/html.h"
 #include "results/pages/study/study_parts.h"
 
 namespace beltlife {
 namespace {
-
-using nlohmann::json;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,10 +21,7 @@ struct Place {
   bool known() const { return std::abs(x) < 1e7 && std::abs(y) < 1e7; }  // false for NaN
 };
 
-Place place_of(const json& pair) {
-  const auto v = numbers_of_list(pair);
-  return v.size() == 2 ? Place{v[0], v[1]} : Place{};
-}
+Place place_of(const std::array<double, 2>& pair) { return {pair[0], pair[1]}; }
 
 /// A layout as the answer has it, mm.
 struct Loop {
@@ -57,42 +51,37 @@ struct Loop {
   bool boxed() const { return box_low.known() && box_high.known(); }
 };
 
-Loop::KeepOut keep_out_of(const json& j) {
+Loop::KeepOut keep_out_of(const DrawnKeepOut& drawn) {
   Loop::KeepOut k;
-  k.name = text_in(j, "name");
-  if (const double margin = number_in(j, "margin_mm"); margin > 0 && margin < 1e7) k.margin = margin;
-  const json& circle = part_of(j, "circle");
-  if (const double radius = number_in(circle, "radius_mm"); radius >= 0 && radius < 1e7) {
-    k.radius = radius;
-    k.corners = {{number_in(circle, "x_mm"), number_in(circle, "y_mm")}};
-  } else {
-    const auto x = numbers_of_list(part_of(part_of(j, "polygon"), "x_mm")),
-               y = numbers_of_list(part_of(part_of(j, "polygon"), "y_mm"));
+  k.name = drawn.name;
+  if (drawn.margin_mm > 0 && drawn.margin_mm < 1e7) k.margin = drawn.margin_mm;
+  if (drawn.circle && drawn.circle->radius_mm >= 0 && drawn.circle->radius_mm < 1e7) {
+    k.radius = drawn.circle->radius_mm;
+    k.corners = {{drawn.circle->x_mm, drawn.circle->y_mm}};
+  } else if (drawn.polygon) {
+    const auto &x = drawn.polygon->x_mm, &y = drawn.polygon->y_mm;
     for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) k.corners.push_back({x[i], y[i]});
   }
   if (!std::all_of(k.corners.begin(), k.corners.end(), [](const Place& p) { return p.known(); })) k.corners.clear();
   return k;
 }
 
-Loop loop_of(const json& layout) {
+Loop loop_of(const DrawnLayout* layout) {
   Loop loop;
-  const json &pulleys = part_of(layout, "pulleys"), &spans = part_of(layout, "spans"),
-             &keep_outs = part_of(layout, "keep_outs"), &arm = part_of(layout, "tensioner"),
-             &box = part_of(layout, "box");
-  if (pulleys.is_array())
-    for (const json& j : pulleys)
-      loop.pulleys.push_back({text_in(j, "name"),
-                              {number_in(j, "x_mm"), number_in(j, "y_mm")},
-                              0.5 * number_in(j, "diameter_mm"),
-                              text_in(j, "side") != "back"});
-  if (spans.is_array())
-    for (const json& j : spans) loop.spans.push_back({place_of(part_of(j, "from_mm")), place_of(part_of(j, "to_mm"))});
-  if (keep_outs.is_array())
-    for (const json& j : keep_outs) loop.keep_outs.push_back(keep_out_of(j));
-  loop.arm_pulley = text_in(arm, "pulley");
-  loop.pivot = {number_in(arm, "pivot_x_mm"), number_in(arm, "pivot_y_mm")};
-  loop.box_low = {number_in(box, "x_min_mm"), number_in(box, "y_min_mm")};
-  loop.box_high = {number_in(box, "x_max_mm"), number_in(box, "y_max_mm")};
+  if (!layout) return loop;
+  for (const DrawnPulley& p : layout->pulleys)
+    loop.pulleys.push_back({p.name, {p.x_mm, p.y_mm}, 0.5 * p.diameter_mm, p.side != "back"});
+  for (const DrawnSpan& span : layout->spans) loop.spans.push_back({place_of(span.from_mm), place_of(span.to_mm)});
+  if (layout->keep_outs)
+    for (const DrawnKeepOut& k : *layout->keep_outs) loop.keep_outs.push_back(keep_out_of(k));
+  if (const auto& arm = layout->tensioner) {
+    loop.arm_pulley = arm->pulley;
+    loop.pivot = {arm->pivot_x_mm, arm->pivot_y_mm};
+  }
+  if (const auto& box = layout->box) {
+    loop.box_low = {box->x_min_mm, box->y_min_mm};
+    loop.box_high = {box->x_max_mm, box->y_max_mm};
+  }
   return loop;
 }
 
@@ -254,8 +243,8 @@ std::string names_of(const Loop& loop, const Frame& f) {
 
 }  // namespace
 
-std::string layout_drawing(const std::string& id, const std::string& caption, const json& layout, const json& other,
-                           bool faint) {
+std::string layout_drawing(const std::string& id, const std::string& caption, const DrawnLayout* layout,
+                           const DrawnLayout* other, bool faint) {
   const Loop loop = loop_of(layout), beneath = loop_of(other);
   if (std::none_of(loop.pulleys.begin(), loop.pulleys.end(), [](const auto& p) { return p.known(); })) return "";
   Frame f;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "optimize/search_answer.h"
 #include "results/pages/study/study_parts.h"
 
 namespace beltlife::optimize_page {
@@ -22,19 +23,18 @@ struct Constraint {
 struct Asked {
   std::map<std::string, Bounds> parameters;
   std::vector<Constraint> constraints;
-  std::map<std::string, double> layout;  ///< numbers of the table [layout], by key
-  std::map<std::string, double> wraps;   ///< smallest wraps of single pulleys, deg
 };
 
 /// Empty where the study's file cannot be read.
 Asked asked_of(const StudyHead& head);
 
-/// The design that the page speaks of beside the start: the best, or of a failed search what breaks least.
-const nlohmann::json& found_of(const nlohmann::json& answer);
+/// The design that the page speaks of beside the start: the best, or of a failed search what breaks least; null where
+/// there is neither.
+const DesignAnswer* found_of(const SearchAnswer& answer);
 std::string number_text(double v, int digits = 5);
 /// None if there is no HTML.
 Section section_of(const char* id, const char* title, const char* heading, const std::string& html);
 /// What the best layout comes near to, its constraints, and which limits were broken.
-Section active_section(const nlohmann::json& answer, const Asked& asked);
+Section active_section(const SearchAnswer& answer, const Asked& asked);
 
 }  // namespace beltlife::optimize_page

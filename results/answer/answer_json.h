@@ -35,6 +35,8 @@ nlohmann::json json_of_part(const T& part) {
     AnswerToJson visitor{object};
     const_cast<T&>(part).visit(visitor);  // the list serves reading, too; nothing is written here
     return object;
+  } else if constexpr (OrNullOf<T>::value) {
+    return part.value ? json_of_part(*part.value) : nlohmann::json();
   } else if constexpr (MapType<T>) {
     nlohmann::json object = nlohmann::json::object();
     for (const auto& [name, inner] : part) object[name] = json_of_part(inner);
@@ -66,40 +68,59 @@ struct AnswerFromJson {
   }
 };
 
+/// Whether a value is of the type that a part has in JSON.
+template <class T>
+bool fits_part(const nlohmann::json& from) {
+  if constexpr (OptionalType<T>)
+    return fits_part<typename OptionalOf<T>::Inner>(from);
+  else if constexpr (OrNullOf<T>::value)
+    return from.is_null() || fits_part<typename OrNullOf<T>::Inner>(from);
+  else if constexpr (AnswerType<T> || MapType<T>)
+    return from.is_object();
+  else if constexpr (VectorType<T> || ArrayType<T>)
+    return from.is_array();
+  else if constexpr (EnumType<T> || std::same_as<T, std::string>)
+    return from.is_string();
+  else if constexpr (std::same_as<T, bool>)
+    return from.is_boolean();
+  else
+    return from.is_number();
+}
+
+/// A part before anything is taken: a number in a list or map that turns out to be null is not known, not 0.
+template <class T>
+T untaken_part() {
+  if constexpr (std::floating_point<T>) return not_known;
+  return T{};
+}
+
 template <class T>
 void take_part(T& part, const nlohmann::json& from) {
+  if (!fits_part<T>(from)) return;
   if constexpr (AnswerType<T>) {
-    if (!from.is_object()) return;
     AnswerFromJson visitor{from};
     part.visit(visitor);
+  } else if constexpr (OrNullOf<T>::value) {
+    if (!from.is_null()) take_part(part.value, from);
   } else if constexpr (OptionalType<T>) {
-    if (from.is_null()) return;
-    typename OptionalOf<T>::Inner inner{};
-    take_part(inner, from);
-    part = std::move(inner);
+    part.emplace(untaken_part<typename OptionalOf<T>::Inner>());
+    take_part(*part, from);
   } else if constexpr (MapType<T>) {
-    if (!from.is_object()) return;
-    for (const auto& [name, inner] : from.items()) take_part(part[name], inner);
+    for (const auto& [name, inner] : from.items())
+      take_part(part.try_emplace(name, untaken_part<typename MapOf<T>::Inner>()).first->second, inner);
   } else if constexpr (VectorType<T>) {
-    if (!from.is_array()) return;
     for (const nlohmann::json& inner : from) {
-      typename T::value_type value{};
+      auto value = untaken_part<typename T::value_type>();
       take_part(value, inner);
       part.push_back(std::move(value));
     }
   } else if constexpr (ArrayType<T>) {
-    if (!from.is_array()) return;
     for (std::size_t i = 0; i < std::min(part.size(), from.size()); ++i) take_part(part[i], from[i]);
   } else if constexpr (EnumType<T>) {
     const auto& names = EnumNames<T>::names;
-    if (!from.is_string()) return;
     const auto at = std::find(names.begin(), names.end(), from.template get_ref<const std::string&>());
     if (at != names.end()) part = static_cast<T>(at - names.begin());
-  } else if constexpr (std::same_as<T, bool>) {
-    if (from.is_boolean()) part = from.get<bool>();
-  } else if constexpr (std::same_as<T, std::string>) {
-    if (from.is_string()) part = from.get<std::string>();
-  } else if (from.is_number()) {
+  } else {
     part = from.get<T>();
   }
 }

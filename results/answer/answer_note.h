@@ -30,6 +30,9 @@ void describe_part(AnswerNote& note) {
   if constexpr (OptionalType<T>) {
     note.may_miss = true;
     describe_part<typename OptionalOf<T>::Inner>(note);
+  } else if constexpr (OrNullOf<T>::value) {
+    note.type += "null or ";
+    describe_part<typename OrNullOf<T>::Inner>(note);
   } else if constexpr (MapType<T>) {
     note.type += "map by name of ";
     ++note.named;
@@ -74,6 +77,12 @@ std::vector<AnswerNote> notes_of() {
   Answer answer;
   answer.visit(visitor);
   return notes;
+}
+
+/// The reference of a type.
+template <AnswerType Answer>
+std::string reference_of_answer() {
+  return answer_reference(notes_of<Answer>());
 }
 
 }  // namespace beltlife

@@ -36,6 +36,22 @@ concept AnswerType = requires(T answer, AnyAnswerVisitor visitor) {
   answer.visit(visitor);
 };
 
+/// An optional that is null where it is empty, and not left out: for the values of a map.
+template <class T>
+struct OrNull {
+  std::optional<T> value;
+};
+
+template <class T>
+struct OrNullOf {
+  static constexpr bool value = false;
+};
+template <class T>
+struct OrNullOf<OrNull<T>> {
+  static constexpr bool value = true;
+  using Inner = T;
+};
+
 template <class T>
 struct MapOf {
   static constexpr bool value = false;

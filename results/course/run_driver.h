@@ -46,32 +46,18 @@ int run_driver(const DriverOptions& o, const std::string& name) {
   head.driver = name;
   head.study_text = write_spec(input.spec) + head.study_text;
   StudyRun run(o, problem, std::move(head), std::move(model));
-  if constexpr (requires { typename Driver::Result; }) {
-    typename Driver::Result answer;
-    try {
-      answer = driver.solve(run);
-    } catch (const Interrupted&) {
-      return report_interrupted(std::filesystem::path(run.out()).replace_extension(".jsonl").string());
-    }
-    answer.evaluations = run.evaluations();
-    answer.failed = run.failed();
-    const nlohmann::json json = json_of_answer(answer);
-    run.finish(json, notes_of<typename Driver::Result>());
-    fmt::print("{}", o.json ? json_text(json) + "\n" : Driver::text(answer));
-    return answer.error ? 3 : 0;
-  } else {
-    nlohmann::json answer;
-    try {
-      answer = driver.solve(run);
-    } catch (const Interrupted&) {
-      return report_interrupted(std::filesystem::path(run.out()).replace_extension(".jsonl").string());
-    }
-    answer["evaluations"] = run.evaluations();
-    answer["failed"] = run.failed();
-    run.finish(answer, {});
-    fmt::print("{}", o.json ? json_text(answer) + "\n" : Driver::text(answer));
-    return answer.contains("error") ? 3 : 0;
+  typename Driver::Result answer;
+  try {
+    answer = driver.solve(run);
+  } catch (const Interrupted&) {
+    return report_interrupted(std::filesystem::path(run.out()).replace_extension(".jsonl").string());
   }
+  answer.evaluations = run.evaluations();
+  answer.failed = run.failed();
+  const nlohmann::json json = json_of_answer(answer);
+  run.finish(json, notes_of<typename Driver::Result>());
+  fmt::print("{}", o.json ? json_text(json) + "\n" : Driver::text(answer));
+  return answer.error ? 3 : 0;
 }
 
 }  // namespace beltlife

@@ -1,14 +1,11 @@
 // Belt-pulley contact: penalty normal force (thesis 2.24-2.26) and asperity friction (thesis 2.27, section 2.3.2).
 //
-// Only nodes of the contact segments are looked at. With d the penetration of a node below the pulley's surface:
-//   F_n = A (k_p d + c_p d')  approaching,  A (k_p d + s_p c_p d')  separating,  0 where d <= 0, never below 0
-//   F_t = -(F_v + F_s),  F_v = (1 - beta) mu F_n sat(v_t / v_s),  F_s = clip(A k_t delta, +- beta mu F_n)
-// delta' = v_t is the offset from an anchor that moves with the pulley and slides while the clip is active; because
-// the clip is 0 without normal force, the anchor is dropped at lift-off. v_t and the moment on the pulley use the
-// node's own radius R - d, so that angular momentum is exact.
+// The law stands in contact_law.h. Only nodes of the contact segments are looked at. v_t and the moment on the pulley
+// use the node's own radius R - d, so that angular momentum is exact.
 #include <algorithm>
 #include <cmath>
 
+#include "sim/kernels/contact_law.h"
 #include "sim/kernels/kernel.h"
 
 namespace beltlife {
@@ -24,53 +21,49 @@ struct SegmentConstants {
   double old_weight, new_weight;
 };
 
+/// Arrays over the nodes, ghosts before and behind; SI units as in Coordinates, State and Work.
+struct ContactNodes {
+  const double *x, *y, *vx, *vy;
+  double *anchor, *slip, *normal, *tangential, *contact_x, *contact_y, *contact_moment, *fx, *fy;
+};
+
 template <bool Commit>
-[[gnu::always_inline]] inline void segment_loop(
-    int begin, int end, const SegmentConstants& c, const double* __restrict x, const double* __restrict y,
-    const double* __restrict vx, const double* __restrict vy, double* __restrict anchor, double* __restrict slip,
-    double* __restrict normal, double* __restrict tangential, double* __restrict contact_x,
-    double* __restrict contact_y, double* __restrict contact_moment, double* __restrict fx, double* __restrict fy) {
+[[gnu::always_inline]] inline void segment_loop(int begin, int end, const SegmentConstants& c, const ContactNodes& n) {
+  // Without a copy the compiler has to read every pointer again after each store.
+  const ContactNodes a = n;
+#pragma GCC ivdep
   for (int i = begin; i < end; ++i) {
-    const double dx = x[i] - c.centre.x, dy = y[i] - c.centre.y;
-    const double rvx = vx[i] - c.centre.vx, rvy = vy[i] - c.centre.vy;
+    const double dx = a.x[i] - c.centre.x, dy = a.y[i] - c.centre.y;
+    const double rvx = a.vx[i] - c.centre.vx, rvy = a.vy[i] - c.centre.vy;
     const double r = std::sqrt(dx * dx + dy * dy), inverse = 1.0 / r;
     const double nx = dx * inverse, ny = dy * inverse;
     const double d = c.radius - r;
     const double approach = -(rvx * nx + rvy * ny);
     const double vt = rvy * nx - rvx * ny - c.speed * r;
-    const double fn = normal_force(c.law, d, approach);
-    const double limit = c.anchor_limit * fn;
-    const double spring = c.friction_stiffness * (anchor[i] + c.old_weight * slip[i] + c.new_weight * vt);
-    const double fs = std::max(std::min(spring, limit), -limit);
-    const double fv = c.velocity_limit * fn * std::max(std::min(vt * c.inverse_friction_speed, 1.0), -1.0);
+    const double fn = contact_law::normal_force(c.law, d, approach);
+    const double spring = c.friction_stiffness * (a.anchor[i] + c.old_weight * a.slip[i] + c.new_weight * vt);
+    const double fs = contact_law::anchor_force(spring, c.anchor_limit * fn);
+    const double fv = contact_law::saturating_force(c.velocity_limit * fn, vt, c.inverse_friction_speed);
     const double ft = -(fs + fv);
-    if (Commit) anchor[i] = fs * c.inverse_friction_stiffness;
-    slip[i] = vt;
-    normal[i] = fn;
-    tangential[i] = ft;
+    if (Commit) a.anchor[i] = fs * c.inverse_friction_stiffness;
+    a.slip[i] = vt;
+    a.normal[i] = fn;
+    a.tangential[i] = ft;
     const double px = fn * nx - ft * ny, py = fn * ny + ft * nx;
-    contact_x[i] = px;
-    contact_y[i] = py;
-    contact_moment[i] = ft * r;
-    fx[i] += px;
-    fy[i] += py;
+    a.contact_x[i] = px;
+    a.contact_y[i] = py;
+    a.contact_moment[i] = ft * r;
+    a.fx[i] += px;
+    a.fy[i] += py;
   }
 }
 
-BELTLIFE_VECTOR void segment_trial(int begin, int end, const SegmentConstants& c, const double* x, const double* y,
-                                   const double* vx, const double* vy, double* anchor, double* slip, double* normal,
-                                   double* tangential, double* contact_x, double* contact_y, double* contact_moment,
-                                   double* fx, double* fy) {
-  segment_loop<false>(begin, end, c, x, y, vx, vy, anchor, slip, normal, tangential, contact_x, contact_y,
-                      contact_moment, fx, fy);
+BELTLIFE_VECTOR void segment_trial(int begin, int end, const SegmentConstants& c, const ContactNodes& n) {
+  segment_loop<false>(begin, end, c, n);
 }
 
-BELTLIFE_VECTOR void segment_commit(int begin, int end, const SegmentConstants& c, const double* x, const double* y,
-                                    const double* vx, const double* vy, double* anchor, double* slip, double* normal,
-                                    double* tangential, double* contact_x, double* contact_y, double* contact_moment,
-                                    double* fx, double* fy) {
-  segment_loop<true>(begin, end, c, x, y, vx, vy, anchor, slip, normal, tangential, contact_x, contact_y,
-                     contact_moment, fx, fy);
+BELTLIFE_VECTOR void segment_commit(int begin, int end, const SegmentConstants& c, const ContactNodes& n) {
+  segment_loop<true>(begin, end, c, n);
 }
 
 }  // namespace
@@ -100,6 +93,19 @@ void contact(Evaluation& e) {
   std::fill(w.hub_y.begin(), w.hub_y.end(), 0.0);
   std::fill(w.belt_torque.begin(), w.belt_torque.end(), 0.0);
   const auto loop = e.pass.commit ? segment_commit : segment_trial;
+  const ContactNodes nodes{q.x.data(),
+                           q.y.data(),
+                           q.vx.data(),
+                           q.vy.data(),
+                           e.state.anchor.data(),
+                           w.slip.data(),
+                           w.normal.data(),
+                           w.tangential.data(),
+                           w.contact_x.data(),
+                           w.contact_y.data(),
+                           w.contact_moment.data(),
+                           w.fx.data(),
+                           w.fy.data()};
   for (const ContactSegment& s : e.state.segments) {
     const double mu = e.model.pulley_friction[s.pulley];
     const SegmentConstants c{pulley_centre(e.model, q, s.pulley),
@@ -113,9 +119,7 @@ void contact(Evaluation& e) {
                              1 / contact.friction_speed,
                              e.pass.old_weight,
                              e.pass.new_weight};
-    loop(s.begin, s.end, c, q.x.data(), q.y.data(), q.vx.data(), q.vy.data(), e.state.anchor.data(), w.slip.data(),
-         w.normal.data(), w.tangential.data(), w.contact_x.data(), w.contact_y.data(), w.contact_moment.data(),
-         w.fx.data(), w.fy.data());
+    loop(s.begin, s.end, c, nodes);
     const int n = s.end - s.begin;
     w.hub_x[s.pulley] -= sum(w.contact_x.data() + s.begin, n);
     w.hub_y[s.pulley] -= sum(w.contact_y.data() + s.begin, n);

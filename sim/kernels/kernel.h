@@ -71,13 +71,6 @@ void tensioner_arm_directional(Evaluation& e);  ///< damping and friction by the
 void arm_stops(Evaluation& e);                  ///< after either
 void pid_driver(Evaluation& e);
 
-/// Normal force of one node at penetration d (m), approaching at `rate` (m/s): A (k_p d + c_p d') or, separating,
-/// A (k_p d + s_p c_p d'), never below 0 and 0 without penetration (thesis 2.24-2.26).
-[[gnu::always_inline]] inline double normal_force(const ContactModel& c, double d, double rate) {
-  const double pressed = std::max(c.stiffness * d + (rate >= 0 ? c.damping : c.separation_damping) * rate, 0.0);
-  return d > 0 ? pressed : 0.0;
-}
-
 /// Torque (N m, running sense) of a one-way spring twisted by `twist` beyond where its clutch engages: the spring and
 /// damper's, never below 0 and 0 without twist.
 inline double one_way_torque(const TorsionalSpring& s, double twist, double rate) {

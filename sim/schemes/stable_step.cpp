@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/kernels/contact_law.h"
 #include "sim/schemes/scheme.h"
 
 namespace beltlife {
@@ -67,7 +68,7 @@ double axial_damping_rate(const Model& m) {
 }
 
 double friction_damping_rate(const Model& m, double friction, double normal_force) {
-  return friction * normal_force * (1 - m.contact.anchor_share) / (m.contact.friction_speed * m.belt.node_mass);
+  return contact_law::steepest_rate(m.contact, friction, normal_force, m.belt.node_mass);
 }
 
 std::vector<StepLimit> step_limits(const Model& m, Scheme scheme) {

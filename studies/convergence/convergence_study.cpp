@@ -37,34 +37,54 @@ std::string name_of(const NumericalRun& r) {
 }
 
 /// By group: the largest error and whose it is, of the quantities that are judged.
-nlohmann::json by_group(const std::vector<std::string>& quantities, const std::vector<bool>& judged,
-                        const std::vector<double>& errors) {
-  nlohmann::json j = nlohmann::json::object();
+GroupErrors by_group(const std::vector<std::string>& quantities, const std::vector<bool>& judged,
+                     const std::vector<double>& errors) {
+  GroupErrors groups;
   for (std::size_t q = 0; q < quantities.size(); ++q) {
     if (!judged[q]) continue;
-    auto& worst = j[quantity_group(quantities[q])];
-    if (worst.is_null() || errors[q] > worst["error"].get<double>())
-      worst = {{"error", errors[q]}, {"quantity", quantities[q]}};
+    GroupError& worst = groups[quantity_group(quantities[q])];
+    if (worst.quantity.empty() || errors[q] > worst.error) worst = {errors[q], quantities[q]};
   }
-  return j;
+  return groups;
 }
 
-double error_in(const nlohmann::json& groups, const std::string& group) {
-  return groups.contains(group) ? groups[group]["error"].get<double>() : 0;
+double error_in(const GroupErrors& groups, const std::string& group) {
+  const auto at = groups.find(group);
+  return at == groups.end() ? 0 : at->second.error;
 }
 
 /// The cheapest setting whose error is within `bound` in `group`, in all groups if it is empty.
-nlohmann::json cheapest(const nlohmann::json& settings, const std::string& group, double bound) {
-  const nlohmann::json* best = nullptr;
-  for (const auto& s : settings) {
-    if (!s.contains("errors")) continue;
-    bool within = group.empty() ? !s["errors"].empty() : s["errors"].contains(group);  // else nothing of it was judged
-    for (const auto& [name, worst] : s["errors"].items())
-      within = within && ((!group.empty() && name != group) || worst["error"].get<double>() <= bound);
-    if (within && (!best || s["processor_s"].get<double>() < (*best)["processor_s"].get<double>())) best = &s;
+OrNull<CheapestSetting> cheapest(const std::vector<SettingAnswer>& settings, const std::string& group, double bound) {
+  const SettingAnswer* best = nullptr;
+  for (const SettingAnswer& s : settings) {
+    if (!s.errors) continue;
+    bool within = group.empty() ? !s.errors->empty() : s.errors->contains(group);  // else nothing of it was judged
+    for (const auto& [name, worst] : *s.errors)
+      within = within && ((!group.empty() && name != group) || worst.error <= bound);
+    if (within && (!best || s.processor_s < best->processor_s)) best = &s;
   }
-  if (!best) return nullptr;
-  return {{"setting", (*best)["name"]}, {"processor_s", (*best)["processor_s"]}};
+  if (!best) return {};
+  return {CheapestSetting{best->name, best->processor_s}};
+}
+
+std::map<std::string, OrNull<CheapestSetting>> cheapest_by_bound(const std::vector<SettingAnswer>& settings,
+                                                                 const std::string& group) {
+  return {{"1 %", cheapest(settings, group, 0.01)}, {"5 %", cheapest(settings, group, 0.05)}};
+}
+
+/// Of every mesh the run with the shortest step, coarsest first.
+std::vector<const NumericalRun*> finest_steps(const std::vector<NumericalRun>& runs, Scheme scheme) {
+  std::vector<const NumericalRun*> meshes;
+  for (const NumericalRun& r : runs) {
+    if (r.scheme != enum_name(scheme) || !r.ok()) continue;
+    const auto same = std::find_if(meshes.begin(), meshes.end(), [&](auto* m) { return m->elements == r.elements; });
+    if (same == meshes.end())
+      meshes.push_back(&r);
+    else if (r.step_s < (*same)->step_s)
+      *same = &r;
+  }
+  std::sort(meshes.begin(), meshes.end(), [](auto* a, auto* b) { return a->elements < b->elements; });
+  return meshes;
 }
 
 }  // namespace
@@ -219,152 +239,153 @@ std::vector<double> ConvergenceStudy::noise_floor(StudyRun& run) const {
   return floor;
 }
 
-nlohmann::json ConvergenceStudy::solve(StudyRun& run) const {
+double ConvergenceStudy::simulated_s() const {
+  const std::vector<std::string> ranges = ranges_for(problem_.scene->file.scene, quantities_);
+  double simulated = 0;
+  for (const RunPlan& plan : plans_of(problem_.scene->file.scene, ranges, problem_.scene->speed()))
+    simulated += plan.end_s;
+  return simulated;
+}
+
+std::vector<bool> ConvergenceStudy::judge(const std::vector<NumericalRun>& runs, std::size_t reference,
+                                          const std::vector<double>& floor, ConvergenceAnswer& answer) const {
+  const NumericalRun& best = runs[reference];
+  const std::vector<double> shares = as_errors(quantities_, best.values, floor);
+  std::vector<bool> judged(quantities_.size(), true);
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    judged[q] = shares[q] < 0.1;
+    if (!judged[q]) answer.not_judged.push_back(quantities_[q]);
+  }
+  const std::vector<double> band = reference_band(runs, reference);
+  answer.reference = name_of(best);
+  answer.reference_band = by_group(quantities_, judged, as_errors(quantities_, best.values, band));
+  answer.noise_floor = by_group(quantities_, judged, shares);
+  for (std::size_t q = 0; q < quantities_.size(); ++q)
+    answer.quantities[quantities_[q]] = {quantity_group(quantities_[q]), best.values[q], band[q], floor[q]};
+  return judged;
+}
+
+SettingAnswer ConvergenceStudy::setting_of(const NumericalRun& r, const std::vector<NumericalRun>& runs,
+                                           std::optional<std::size_t> reference, const std::vector<bool>& judged,
+                                           double simulated) const {
+  SettingAnswer s;
+  s.name = name_of(r);
+  s.scheme = r.scheme;
+  s.elements = r.elements;
+  s.step_s = r.step_s;
+  s.steps = std::round(simulated / r.step_s);
+  s.evaluations = s.steps * (r.scheme == "thesis" ? 2 : 1);
+  s.processor_s = r.processor_s;
+  s.simulated_s_per_s = r.processor_s > 0 ? simulated / r.processor_s : 0;
+  if (!r.ok()) s.failure = r.failure;
+  if (!reference || !r.ok()) return s;
+  s.errors = by_group(quantities_, judged, errors_of(quantities_, runs[*reference].values, r.values));
+  // The step alone: against the explicit run with the shortest step on the same mesh.
+  std::vector<NumericalRun> same_mesh;
+  for (const NumericalRun& other : runs)
+    if (other.elements == r.elements) same_mesh.push_back(other);
+  if (const auto own = reference_run(same_mesh))
+    s.step_errors = by_group(quantities_, judged, errors_of(quantities_, same_mesh[*own].values, r.values));
+  return s;
+}
+
+std::map<std::string, ObservedOrders> ConvergenceStudy::orders_of(const std::string& group,
+                                                                  const std::vector<NumericalRun>& runs,
+                                                                  const std::vector<SettingAnswer>& settings,
+                                                                  const std::vector<bool>& judged) const {
+  std::map<std::string, ObservedOrders> orders;
+  for (const Scheme scheme : settings_.schemes) {
+    std::vector<double> steps, step_errors, lengths, mesh_errors;
+    for (const SettingAnswer& s : settings) {
+      if (s.scheme != enum_name(scheme) || !s.errors || !s.step_errors) continue;
+      if (scheme != Scheme::linearly_implicit || s.elements != problem_.scene->model.belt.nodes) continue;
+      steps.push_back(s.step_s);
+      step_errors.push_back(error_in(*s.step_errors, group));
+    }
+    // Meshes: differences of neighbouring ones at the shortest step, whose slope knows nothing of the reference.
+    const std::vector<const NumericalRun*> meshes = finest_steps(runs, scheme);
+    for (std::size_t i = 0; i + 1 < meshes.size(); ++i) {
+      lengths.push_back(1.0 / meshes[i]->elements);
+      mesh_errors.push_back(error_in(
+          by_group(quantities_, judged, errors_of(quantities_, meshes[i + 1]->values, meshes[i]->values)), group));
+    }
+    const ObservedOrders o{observed_order(steps, step_errors), observed_order(lengths, mesh_errors)};
+    if (o.step || o.mesh) orders[std::string(enum_name(scheme))] = o;
+  }
+  return orders;
+}
+
+ConvergenceAnswer ConvergenceStudy::solve(StudyRun& run) const {
   const std::vector<NumericalRun> runs = run_all(run);
   const std::vector<double> floor = noise_floor(run);
-  nlohmann::json answer;
-  answer["processor"] = processor_name();
-  answer["groups"] = nlohmann::json::array();
+  ConvergenceAnswer answer;
+  answer.processor = processor_name();
   for (const std::string& g : quantity_groups())
     if (std::any_of(quantities_.begin(), quantities_.end(), [&](const auto& q) { return quantity_group(q) == g; }))
-      answer["groups"].push_back(g);
-  const std::vector<std::string> ranges = ranges_for(problem_.scene->file.scene, quantities_);
-  const auto plans = plans_of(problem_.scene->file.scene, ranges, problem_.scene->speed());
-  double simulated = 0;
-  for (const RunPlan& plan : plans) simulated += plan.end_s;
-  answer["simulated_s"] = simulated;
-
-  const auto at = reference_run(runs);
-  std::vector<double> band;
+      answer.groups.push_back(g);
+  answer.simulated_s = simulated_s();
+  const auto reference = reference_run(runs);
   std::vector<bool> judged(quantities_.size(), true);
-  answer["not_judged"] = nlohmann::json::array();
-  if (at) {
-    const std::vector<double> shares = as_errors(quantities_, runs[*at].values, floor);
-    for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      judged[q] = shares[q] < 0.1;
-      if (!judged[q]) answer["not_judged"].push_back(quantities_[q]);
-    }
-    answer["reference"] = name_of(runs[*at]);
-    band = reference_band(runs, *at);
-    answer["reference_band"] = by_group(quantities_, judged, as_errors(quantities_, runs[*at].values, band));
-    answer["noise_floor"] = by_group(quantities_, judged, as_errors(quantities_, runs[*at].values, floor));
-    for (std::size_t q = 0; q < quantities_.size(); ++q)
-      answer["quantities"][quantities_[q]] = {{"group", quantity_group(quantities_[q])},
-                                              {"reference", runs[*at].values[q]},
-                                              {"band", band[q]},
-                                              {"noise", floor[q]}};
-  }
-  answer["settings"] = nlohmann::json::array();
-  for (const NumericalRun& r : runs) {
-    nlohmann::json s{{"name", name_of(r)},
-                     {"scheme", r.scheme},
-                     {"elements", r.elements},
-                     {"step_s", r.step_s},
-                     {"steps", std::round(simulated / r.step_s)},
-                     {"evaluations", std::round(simulated / r.step_s) * (r.scheme == "thesis" ? 2 : 1)},
-                     {"processor_s", r.processor_s},
-                     {"simulated_s_per_s", r.processor_s > 0 ? simulated / r.processor_s : 0}};
-    if (!r.ok()) s["failure"] = r.failure;
-    if (at && r.ok()) {
-      s["errors"] = by_group(quantities_, judged, errors_of(quantities_, runs[*at].values, r.values));
-      // The step alone: against the explicit run with the shortest step on the same mesh.
-      std::vector<NumericalRun> same_mesh;
-      for (const NumericalRun& other : runs)
-        if (other.elements == r.elements) same_mesh.push_back(other);
-      if (const auto own = reference_run(same_mesh))
-        s["step_errors"] = by_group(quantities_, judged, errors_of(quantities_, same_mesh[*own].values, r.values));
-    }
-    answer["settings"].push_back(std::move(s));
-  }
-  if (!at) {
-    answer["error"] = "no explicit run came to its end: there is no reference";
+  if (reference) judged = judge(runs, *reference, floor, answer);
+  for (const NumericalRun& r : runs)
+    answer.settings.push_back(setting_of(r, runs, reference, judged, answer.simulated_s));
+  if (!reference) {
+    answer.error = "no explicit run came to its end: there is no reference";
     return answer;
   }
-  for (const auto& g : answer["groups"]) {
-    const std::string group = g;
-    nlohmann::json orders = nlohmann::json::object();
-    for (const Scheme scheme : settings_.schemes) {
-      std::vector<double> steps, step_errors, lengths, mesh_errors;
-      for (const auto& s : answer["settings"]) {
-        if (s["scheme"] != std::string(enum_name(scheme)) || !s.contains("errors")) continue;
-        if (scheme == Scheme::linearly_implicit && s["elements"] == problem_.scene->model.belt.nodes &&
-            s.contains("step_errors")) {
-          steps.push_back(s["step_s"]);
-          step_errors.push_back(error_in(s["step_errors"], group));
-        }
-      }
-      // Meshes: differences of neighbouring ones at the shortest step, whose slope knows nothing of the reference.
-      std::vector<const NumericalRun*> meshes;
-      for (const NumericalRun& r : runs) {
-        if (r.scheme != enum_name(scheme) || !r.ok()) continue;
-        const auto same =
-            std::find_if(meshes.begin(), meshes.end(), [&](auto* m) { return m->elements == r.elements; });
-        if (same == meshes.end())
-          meshes.push_back(&r);
-        else if (r.step_s < (*same)->step_s)
-          *same = &r;
-      }
-      std::sort(meshes.begin(), meshes.end(), [](auto* a, auto* b) { return a->elements < b->elements; });
-      for (std::size_t i = 0; i + 1 < meshes.size(); ++i) {
-        lengths.push_back(1.0 / meshes[i]->elements);
-        mesh_errors.push_back(error_in(
-            by_group(quantities_, judged, errors_of(quantities_, meshes[i + 1]->values, meshes[i]->values)), group));
-      }
-      nlohmann::json o = nlohmann::json::object();
-      if (const auto p = observed_order(steps, step_errors)) o["step"] = *p;
-      if (const auto p = observed_order(lengths, mesh_errors)) o["mesh"] = *p;
-      if (!o.empty()) orders[std::string(enum_name(scheme))] = std::move(o);
-    }
-    answer["orders"][group] = std::move(orders);
-    answer["cheapest"][group] = {{"1 %", cheapest(answer["settings"], group, 0.01)},
-                                 {"5 %", cheapest(answer["settings"], group, 0.05)}};
+  for (const std::string& group : answer.groups) {
+    answer.orders[group] = orders_of(group, runs, answer.settings, judged);
+    answer.cheapest[group] = cheapest_by_bound(answer.settings, group);
   }
-  answer["cheapest"]["all"] = {{"1 %", cheapest(answer["settings"], "", 0.01)},
-                               {"5 %", cheapest(answer["settings"], "", 0.05)}};
+  answer.cheapest["all"] = cheapest_by_bound(answer.settings, "");
   return answer;
 }
 
-std::string ConvergenceStudy::text(const nlohmann::json& answer) {
-  const std::vector<std::string> groups = answer["groups"];
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.2g}", 100 * share); }
+
+std::string best_text(const OrNull<CheapestSetting>& best) {
+  if (!best.value) return "none of these";
+  return fmt::format("{} ({:.3g} s)", best.value->setting, best.value->processor_s);
+}
+
+}  // namespace
+
+std::string ConvergenceStudy::text(const ConvergenceAnswer& answer) {
   std::vector<std::string> header{"scheme", "elements", "step s", "processor s", "s/s"};
-  header.insert(header.end(), groups.begin(), groups.end());
+  header.insert(header.end(), answer.groups.begin(), answer.groups.end());
   Table table(header);
-  const auto percent = [](double share) { return fmt::format("{:.2g}", 100 * share); };
-  const auto line = [&](std::vector<std::string> row, const nlohmann::json& errors) {
-    for (const std::string& g : groups) row.push_back(errors.contains(g) ? percent(errors[g]["error"]) : "-");
+  const auto line = [&](std::vector<std::string> row, const std::optional<GroupErrors>& errors) {
+    for (const std::string& g : answer.groups)
+      row.push_back(errors && errors->contains(g) ? percent(errors->at(g).error) : "-");
     table.row(std::move(row));
   };
   std::string failures;
-  for (const auto& s : answer["settings"]) {
-    line({s["scheme"], fmt::format("{}", s["elements"].get<int>()), fmt::format("{:.3g}", s["step_s"].get<double>()),
-          fmt::format("{:.3g}", s["processor_s"].get<double>()),
-          fmt::format("{:.3g}", s["simulated_s_per_s"].get<double>())},
-         s.contains("errors") ? s["errors"] : nlohmann::json::object());
-    if (s.contains("failure")) failures += s["name"].get<std::string>() + ": " + s["failure"].get<std::string>() + "\n";
+  for (const SettingAnswer& s : answer.settings) {
+    line({s.scheme, fmt::format("{}", s.elements), fmt::format("{:.3g}", s.step_s),
+          fmt::format("{:.3g}", s.processor_s), fmt::format("{:.3g}", s.simulated_s_per_s)},
+         s.errors);
+    if (s.failure) failures += s.name + ": " + *s.failure + "\n";
   }
-  if (answer.contains("error")) return table.text() + "\n" + answer["error"].get<std::string>() + "\n" + failures;
-  line({"reference's own band", "-", "-", "-", "-"}, answer["reference_band"]);
-  line({"noise floor", "-", "-", "-", "-"}, answer["noise_floor"]);
+  if (answer.error) return table.text() + "\n" + *answer.error + "\n" + failures;
+  line({"reference's own band", "-", "-", "-", "-"}, answer.reference_band);
+  line({"noise floor", "-", "-", "-", "-"}, answer.noise_floor);
   std::string words = fmt::format(
       "Largest error of each group of quantities, %, against {}\n(log10 life: hundredths of a decade), {:.4g} s "
       "simulated, "
       "on one thread of {}.\n\n",
-      answer["reference"].get<std::string>(), answer["simulated_s"].get<double>(),
-      answer["processor"].get<std::string>());
-  const auto best = [](const nlohmann::json& j) {
-    return j.is_null() ? std::string("none of these")
-                       : fmt::format("{} ({:.3g} s)", j["setting"].get<std::string>(), j["processor_s"].get<double>());
-  };
+      answer.reference.value_or(""), answer.simulated_s, answer.processor);
   Table cheapest({"cheapest setting within", "1 %", "5 %"});
-  std::vector<std::string> rows = groups;
+  std::vector<std::string> rows = answer.groups;
   rows.push_back("all");
   for (const std::string& group : rows) {
-    const auto& bounds = answer["cheapest"][group];
-    cheapest.row({group == "all" ? "all of them" : group, best(bounds["1 %"]), best(bounds["5 %"])});
+    const auto& bounds = answer.cheapest.at(group);
+    cheapest.row({group == "all" ? "all of them" : group, best_text(bounds.at("1 %")), best_text(bounds.at("5 %"))});
   }
-  const std::vector<std::string> drowned = answer["not_judged"];
-  if (!drowned.empty())
-    words += fmt::format("Not judged, because a tenth of their value or more is noise: {}\n\n", joined(drowned));
+  if (!answer.not_judged.empty())
+    words +=
+        fmt::format("Not judged, because a tenth of their value or more is noise: {}\n\n", joined(answer.not_judged));
   return words + table.text() + "\n" + cheapest.text() + (failures.empty() ? "" : "\nFailed\n" + failures);
 }
 

@@ -3,6 +3,7 @@
 
 #include "results/course/study_run.h"
 #include "studies/convergence/convergence.h"
+#include "studies/convergence/convergence_answer.h"
 
 namespace beltlife {
 
@@ -35,17 +36,28 @@ struct ConvergenceSettings {
 class ConvergenceStudy {
  public:
   using Settings = ConvergenceSettings;
+  using Result = ConvergenceAnswer;
   static std::vector<std::string> quantities(const Model& model);
   ConvergenceStudy(const LoadedProblem& problem, const ConvergenceSettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  ConvergenceAnswer solve(StudyRun& run) const;
+  static std::string text(const ConvergenceAnswer& answer);
 
  private:
   std::vector<NumericalRun> settings() const;
   std::vector<NumericalRun> run_all(StudyRun& run) const;
   std::vector<double> noise_floor(StudyRun& run) const;
+  double simulated_s() const;
+  /// Which quantities are not drowned in noise; what is known of the reference goes to the answer.
+  std::vector<bool> judge(const std::vector<NumericalRun>& runs, std::size_t reference,
+                          const std::vector<double>& floor, ConvergenceAnswer& answer) const;
+  SettingAnswer setting_of(const NumericalRun& r, const std::vector<NumericalRun>& runs,
+                           std::optional<std::size_t> reference, const std::vector<bool>& judged,
+                           double simulated) const;
+  std::map<std::string, ObservedOrders> orders_of(const std::string& group, const std::vector<NumericalRun>& runs,
+                                                  const std::vector<SettingAnswer>& settings,
+                                                  const std::vector<bool>& judged) const;
   Point point_of_run(const NumericalRun& r, double phase, int repeat) const;
 
   LoadedProblem problem_;

@@ -1,4 +1,6 @@
 // The part of a page that is of one change at a time: verdicts beside what was said, effects; see study_parts.h.
+#include "studies/oat/oat_page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,18 +9,28 @@
 #include "results/pages/study/study_charts.h"
 #include "results/pages/study/study_parts.h"
 #include "sim/eval/quantity_unit.h"
-#include "studies/pages.h"
 
 namespace beltlife {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::size_t most_bars = 24, most_charts = 8;
 constexpr double least_db = -200;  // stands for a quantity that is gone or has changed its sign
-constexpr const char* aspects[] = {"magnitude", "frequency"};
 
-struct Effect {
+using Changes = std::vector<ChangeAnswer>;
+using Variants = std::vector<VariantAnswer>;
+
+/// What a verdict is about: its name, the verdict, what was said of it, and whether both agree.
+struct Aspect {
+  const char* name;
+  std::optional<std::string> ChangeAnswer::*verdict;
+  std::optional<std::string> ChangeAnswer::*says;
+  std::optional<bool> ChangeAnswer::*agrees;
+};
+constexpr Aspect aspects[] = {
+    {"magnitude", &ChangeAnswer::magnitude, &ChangeAnswer::says_magnitude, &ChangeAnswer::agrees_magnitude},
+    {"frequency", &ChangeAnswer::frequency, &ChangeAnswer::says_frequency, &ChangeAnswer::agrees_frequency}};
+
+struct ShownEffect {
   double db = NAN, factor = NAN;  ///< of lives the factor, of all others dB
   double change = NAN;            ///< relative
   bool noise = false, responses = false;
@@ -26,71 +38,73 @@ struct Effect {
   double size() const { return std::isfinite(factor) && factor > 0 ? std::abs(20 * std::log10(factor)) : std::abs(db); }
 };
 
-Effect effect_of(const json& row, const std::string& quantity) {
-  const json& j = part_of(part_of(row, "effects"), quantity);
-  const double db = number_in(j, "db");
-  return {db > least_db ? db : NAN, number_in(j, "life_factor"), number_in(j, "change"), !flag_in(j, "beyond_noise"),
-          number_in(j, "responses_before") > 1 || number_in(j, "responses_after") > 1};
+ShownEffect effect_of(const ChangeAnswer& row, const std::string& quantity) {
+  const auto at = row.effects.find(quantity);
+  if (at == row.effects.end()) return {};
+  const ChangeEffect& e = at->second;
+  const double db = e.db.value_or(NAN);
+  return {db > least_db ? db : NAN, e.life_factor.value_or(NAN), e.change, !e.beyond_noise,
+          e.responses_before > 1 || e.responses_after > 1};
 }
 
-bool failed(const json& row) { return !text_in(row, "failure").empty(); }
+bool failed(const ChangeAnswer& row) { return row.failure.has_value(); }
 
-std::string effect_text(const Effect& e) {
-  std::string text = "-";
+std::string effect_text(const ShownEffect& e) {
+  std::string text = "none";
   if (std::isfinite(e.factor))
     text = digits_text(e.factor);
   else if (std::isfinite(e.db))
     text = std::abs(e.db) < 0.005 ? "0.00" : fmt::format("{:+.2f}", e.db);
   else if (std::isfinite(e.change) && e.change != 0)
     text = fmt::format("{:+.0f} %", 100 * e.change);
-  return text == "-" ? text : text + (e.noise ? " n" : "") + (e.responses ? " c" : "");
+  return text == "none" ? text : text + (e.noise ? " n" : "") + (e.responses ? " c" : "");
 }
 
 /// Quantities of which some row has an effect, in the study's order.
-std::vector<std::string> quantities_of(const StudyRecord& record, const json& changes) {
+std::vector<std::string> quantities_of(const StudyRecord& record, const Changes& changes) {
   std::vector<std::string> names;
   for (const std::string& q : record.head.quantities)
-    if (std::any_of(changes.begin(), changes.end(),
-                    [&](const json& row) { return part_of(part_of(row, "effects"), q).is_object(); }))
+    if (std::any_of(changes.begin(), changes.end(), [&](const ChangeAnswer& row) { return row.effects.contains(q); }))
       names.push_back(q);
   return names;
 }
 
-bool is_life(const json& changes, const std::string& q) {
+bool is_life(const Changes& changes, const std::string& q) {
   return std::any_of(changes.begin(), changes.end(),
-                     [&](const json& row) { return std::isfinite(effect_of(row, q).factor); });
+                     [&](const ChangeAnswer& row) { return std::isfinite(effect_of(row, q).factor); });
 }
 
-bool says(const json& changes, const std::string& aspect) {
+bool says(const Changes& changes, const Aspect& aspect) {
   return std::any_of(changes.begin(), changes.end(),
-                     [&](const json& row) { return !text_in(row, "says_" + aspect).empty(); });
+                     [&](const ChangeAnswer& row) { return (row.*aspect.says).has_value(); });
 }
 
 struct Largest {
   std::string change, quantity, variant;
-  Effect effect;
+  ShownEffect effect;
 };
 
 /// Among lives or among all others; noise moves nothing.
-Largest largest(const StudyRecord& record, const json& variants, bool of_life) {
+Largest largest(const StudyRecord& record, const Variants& variants, bool of_life) {
   Largest most;
-  for (const json& variant : variants)
-    for (const json& row : part_of(variant, "changes"))
+  for (const VariantAnswer& variant : variants)
+    for (const ChangeAnswer& row : variant.changes)
       for (const std::string& q : record.head.quantities)
-        if (const Effect e = effect_of(row, q);
+        if (const ShownEffect e = effect_of(row, q);
             !e.noise && std::isfinite(e.factor) == of_life && e.size() > (most.change.empty() ? 0 : most.effect.size()))
-          most = {text_in(row, "name"), q, text_in(variant, "name"), e};
+          most = {row.name, q, variant.name, e};
   return most;
 }
 
-std::string lead_of(const StudyRecord& record, const json& variants) {
-  std::string words = error_words(record.answer);
-  double said = 0, agreed = 0;
+std::string lead_of(const StudyRecord& record, const OatAnswer& answer) {
+  const Variants& variants = answer.variants;
+  std::string words = error_words(answer);
+  std::int64_t said = 0, agreed = 0;
   std::size_t lost = 0;
-  for (const json& variant : variants) {
-    if (const double s = number_in(variant, "said"); s > 0) said += s;
-    if (const double a = number_in(variant, "agreed"); a > 0) agreed += a;
-    for (const json& row : part_of(variant, "changes")) lost += failed(row);
+  for (const VariantAnswer& variant : variants) {
+    said += variant.said;
+    agreed += variant.agreed;
+    for (const ChangeAnswer& row : variant.changes) lost += failed(row);
   }
   if (said > 0) words += fmt::format("<strong>{} of {}</strong> verdicts agree with what was said. ", agreed, said);
   const auto where = [&](const Largest& l) {
@@ -110,45 +124,49 @@ std::string lead_of(const StudyRecord& record, const json& variants) {
   return words;
 }
 
-std::string verdicts_of(const std::string& id, const json& changes) {
+std::string verdicts_of(const std::string& id, const Changes& changes) {
+  const bool peaks =
+      std::any_of(changes.begin(), changes.end(), [](const ChangeAnswer& r) { return r.peak.has_value(); });
   Row header{"change"};
-  for (const char* aspect : aspects) {
-    header.push_back(aspect);
+  for (const Aspect& aspect : aspects) {
+    header.push_back(aspect.name);
     if (says(changes, aspect)) header.insert(header.end(), {"said of it", "agrees"});
   }
-  header.push_back("peak");
+  if (peaks) header.push_back("peak");
   std::vector<Row> rows;
-  for (const json& row : changes) {
-    Row cells{text_in(row, "name")};
-    const auto word = [&](const std::string& key) { return text_in(row, key).empty() ? "-" : text_in(row, key); };
-    for (const std::string aspect : aspects) {
-      cells.push_back(failed(row) ? Cell("failed", true) : Cell(word(aspect)));
+  for (const ChangeAnswer& row : changes) {
+    Row cells{row.name};
+    const auto word = [&](const std::optional<std::string>& verdict) {
+      return failed(row) ? Cell("failed", true) : Cell(verdict.value_or("not looked at"));
+    };
+    for (const Aspect& aspect : aspects) {
+      cells.push_back(word(row.*aspect.verdict));
       if (!says(changes, aspect)) continue;
-      const bool judged = part_of(row, "agrees_" + aspect).is_boolean(), agrees = flag_in(row, "agrees_" + aspect);
-      cells.push_back(word("says_" + aspect));
-      cells.push_back(judged ? Cell(agrees ? "yes" : "no", !agrees) : Cell("-"));
+      const auto agrees = row.*aspect.agrees;
+      cells.push_back((row.*aspect.says).value_or("nothing"));
+      cells.push_back(agrees ? Cell(*agrees ? "yes" : "no", !*agrees) : Cell(""));
     }
-    cells.push_back(word("peak"));
+    if (peaks) cells.push_back(word(row.peak));
     rows.push_back(std::move(cells));
   }
   return html_table(id, header, rows);
 }
 
 /// Names of quantities are long: numbers stand for them in the header.
-std::string effects_of(const std::string& id, const json& changes, const std::vector<std::string>& quantities) {
+std::string effects_of(const std::string& id, const Changes& changes, const std::vector<std::string>& quantities) {
   Row header{"change"};
   for (std::size_t i = 0; i < quantities.size(); ++i) header.push_back(fmt::format("({})", i + 1));
   std::vector<Row> rows;
-  for (const json& row : changes) {
+  for (const ChangeAnswer& row : changes) {
     if (failed(row)) continue;
-    Row cells{text_in(row, "name")};
+    Row cells{row.name};
     for (const std::string& q : quantities) cells.push_back(effect_text(effect_of(row, q)));
     rows.push_back(std::move(cells));
   }
   return html_table(id, header, rows);
 }
 
-std::string legend_of(const json& changes, const std::vector<std::string>& quantities) {
+std::string legend_of(const Changes& changes, const std::vector<std::string>& quantities) {
   std::string list;
   for (std::size_t i = 0; i < quantities.size(); ++i)
     list += fmt::format("{}({}) {}, {}", i > 0 ? "; " : "", i + 1, html_escaped(quantities[i]),
@@ -157,12 +175,12 @@ std::string legend_of(const json& changes, const std::vector<std::string>& quant
 }
 
 /// One quantity over the changes, largest first.
-std::string tornado_of(const std::string& id, const json& changes, const std::string& quantity) {
+std::string tornado_of(const std::string& id, const Changes& changes, const std::string& quantity) {
   const bool life = is_life(changes, quantity);
-  std::vector<std::pair<std::string, Effect>> bars;
-  for (const json& row : changes)
-    if (const Effect e = effect_of(row, quantity); life ? e.factor > 0 : std::isfinite(e.db))
-      bars.emplace_back(text_in(row, "name"), e);
+  std::vector<std::pair<std::string, ShownEffect>> bars;
+  for (const ChangeAnswer& row : changes)
+    if (const ShownEffect e = effect_of(row, quantity); life ? e.factor > 0 : std::isfinite(e.db))
+      bars.emplace_back(row.name, e);
   std::stable_sort(bars.begin(), bars.end(),
                    [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
   if (bars.size() > most_bars) bars.resize(most_bars);
@@ -176,25 +194,23 @@ std::string tornado_of(const std::string& id, const json& changes, const std::st
   return svg.empty() ? "" : "<div><h3>" + html_escaped(quantity) + "</h3>\n" + svg + "</div>\n";
 }
 
-std::string failures_of(const json& changes) {
+std::string failures_of(const Changes& changes) {
   std::string list;
-  for (const json& row : changes)
-    if (failed(row))
-      list += "<li>" + html_escaped(text_in(row, "name")) + ": " + html_escaped(text_in(row, "failure")) + "</li>\n";
+  for (const ChangeAnswer& row : changes)
+    if (failed(row)) list += "<li>" + html_escaped(row.name) + ": " + html_escaped(*row.failure) + "</li>\n";
   return list.empty() ? "" : "<p>Not judged, because a side has no point that is ok:</p>\n<ul>" + list + "</ul>\n";
 }
 
-Section variant_section(const StudyRecord& record, const json& variant, std::size_t index) {
-  const json& changes = part_of(variant, "changes");
+Section variant_section(const StudyRecord& record, const VariantAnswer& variant, std::size_t index) {
+  const Changes& changes = variant.changes;
   const std::string id = fmt::format("changes-{}", index);
-  if (!changes.is_array() || changes.empty()) return {id, "", ""};
+  if (changes.empty()) return {id, "", ""};
   const std::vector<std::string> quantities = quantities_of(record, changes);
-  std::string name = text_in(variant, "name");
+  std::string name = variant.name;
   if (name.empty()) name = fmt::format("Variant {}", index + 1);
   std::string html = fmt::format("<section id=\"{}\"><h2>{}</h2>\n", id, html_escaped(name));
-  if (const double said = number_in(variant, "said"); said > 0)
-    html += fmt::format("<p>{} of {} verdicts agree with what was said.</p>\n",
-                        digits_text(number_in(variant, "agreed")), said);
+  if (variant.said > 0)
+    html += fmt::format("<p>{} of {} verdicts agree with what was said.</p>\n", variant.agreed, variant.said);
   html += verdicts_of(fmt::format("study-verdicts-{}", index), changes) + failures_of(changes);
   if (!quantities.empty())
     html += effects_of(fmt::format("study-effects-{}", index), changes, quantities) + legend_of(changes, quantities);
@@ -213,15 +229,15 @@ Section variant_section(const StudyRecord& record, const json& variant, std::siz
   return {id, name, html + "</section>\n"};
 }
 
-std::string variants_section(const StudyRecord& record, const json& variants) {
+std::string variants_section(const StudyRecord& record, const Variants& variants) {
   std::vector<Row> rows;
-  for (const json& variant : variants) {
-    const double said = number_in(variant, "said"), agreed = number_in(variant, "agreed");
-    const json alone = json::array({variant});
-    const Largest most = largest(record, alone, false);
-    rows.push_back({text_in(variant, "name"), digits_text(agreed), digits_text(said),
-                    said > 0 ? percent_text(agreed / said, 3) : "-",
-                    most.change.empty() ? "-" : fmt::format("{:+.2f}", most.effect.db), most.change});
+  for (const VariantAnswer& variant : variants) {
+    const Largest most = largest(record, {variant}, false);
+    rows.push_back({variant.name, std::to_string(variant.agreed), std::to_string(variant.said),
+                    variant.said > 0
+                        ? percent_text(static_cast<double>(variant.agreed) / static_cast<double>(variant.said), 3)
+                        : "nothing was said",
+                    most.change.empty() ? "none beyond noise" : fmt::format("{:+.2f}", most.effect.db), most.change});
   }
   return "<section id=\"variants\"><h2>Variants</h2>\n" +
          html_table("study-variants", {"variant", "agree", "of", "%", "largest dB", "by"}, rows) + "</section>\n";
@@ -229,16 +245,15 @@ std::string variants_section(const StudyRecord& record, const json& variants) {
 
 }  // namespace
 
-StudyPart oat_part(const StudyRecord& record) {
-  static const json none = json::array();
-  const json& given = part_of(record.answer, "variants");
-  const json& variants = given.is_array() ? given : none;
+StudyPart oat_part(const StudyRecord& record, const OatAnswer& answer) {
   StudyPart part;
-  part.lead = lead_of(record, variants);
-  part.key_numbers = {{"crank phases a side", digits_text(number_in(record.answer, "replicates"))},
-                      {"visible from, %", percent_text(number_in(record.answer, "visible"))}};
-  if (variants.size() > 1) part.sections.push_back({"variants", "Variants", variants_section(record, variants)});
-  for (std::size_t i = 0; i < variants.size(); ++i) part.sections.push_back(variant_section(record, variants[i], i));
+  part.lead = lead_of(record, answer);
+  part.key_numbers = {{"crank phases a side", std::to_string(answer.replicates)},
+                      {"visible from, %", percent_text(answer.visible)}};
+  if (answer.variants.size() > 1)
+    part.sections.push_back({"variants", "Variants", variants_section(record, answer.variants)});
+  for (std::size_t i = 0; i < answer.variants.size(); ++i)
+    part.sections.push_back(variant_section(record, answer.variants[i], i));
   return part;
 }
 

@@ -157,58 +157,79 @@ std::vector<Point> OatStudy::points_of(const Side& side, const VariantSpec& vari
   return points;
 }
 
-nlohmann::json OatStudy::row_of(const Comparison& c, const std::vector<Answer>& base,
-                                const std::vector<Answer>& changed) const {
-  nlohmann::json row{{"name", c.change.name}};
-  const auto failed = [](const std::vector<Answer>& side) {
-    return std::find_if(side.begin(), side.end(), [](const Answer& a) { return !a.ok(); });
-  };
-  for (const auto* side : {&base, &changed})
-    if (const auto bad = failed(*side); bad != side->end() && values_of(*side, 0).empty()) {
-      row["failure"] = fmt::format("{}: {}", to_string(bad->state), bad->reason);
-      return row;
-    }
-  std::vector<Effect> magnitudes, frequencies, peaks;
-  const auto among = [](const std::vector<std::string>& list, const std::string& q) {
-    return std::find(list.begin(), list.end(), q) != list.end();
-  };
-  for (std::size_t q = 0; q < problem_.spec.quantities.size(); ++q) {
-    const std::string& name = problem_.spec.quantities[q];
-    const Effect e = compare(values_of(base, q), values_of(changed, q), settings_.visible, settings_.standard_errors);
-    if (among(settings_.magnitude, name)) magnitudes.push_back(e);
-    if (among(settings_.frequency, name)) frequencies.push_back(e);
-    if (among(settings_.peak, name)) peaks.push_back(e);
-    nlohmann::json effect{{"before", e.before},
-                          {"after", e.after},
-                          {"change", e.change},
-                          {"standard_error", e.standard_error},
-                          {"beyond_noise", e.beyond_noise},
-                          {"visible", e.visible},
-                          {"responses_before", e.responses_before},
-                          {"responses_after", e.responses_after}};
-    const double ratio = e.before != 0 ? e.after / e.before : 0;
-    if (is_life(name))
-      effect["life_factor"] = ends(name, "log10_life_h") ? std::pow(10, e.after - e.before) : ratio;
-    else if (ratio > 0)
-      effect["db"] = 20 * std::log10(ratio);
-    row["effects"][name] = std::move(effect);
+namespace {
+
+ChangeEffect effect_of(const std::string& quantity, const Effect& e) {
+  ChangeEffect found;
+  found.before = e.before;
+  found.after = e.after;
+  found.change = e.change;
+  found.standard_error = e.standard_error;
+  found.beyond_noise = e.beyond_noise;
+  found.visible = e.visible;
+  found.responses_before = static_cast<std::int64_t>(e.responses_before);
+  found.responses_after = static_cast<std::int64_t>(e.responses_after);
+  const double ratio = e.before != 0 ? e.after / e.before : 0;
+  if (is_life(quantity))
+    found.life_factor = ends(quantity, "log10_life_h") ? std::pow(10, e.after - e.before) : ratio;
+  else if (ratio > 0)
+    found.db = 20 * std::log10(ratio);
+  return found;
+}
+
+/// Why a comparison cannot be judged; empty if both sides have a point that is ok.
+std::string failure_of(const std::vector<Answer>& base, const std::vector<Answer>& changed) {
+  for (const auto* side : {&base, &changed}) {
+    const auto bad = std::find_if(side->begin(), side->end(), [](const Answer& a) { return !a.ok(); });
+    if (bad != side->end() && values_of(*side, 0).empty())
+      return fmt::format("{}: {}", to_string(bad->state), bad->reason);
   }
-  row["magnitude"] = verdict_of(magnitudes);
+  return "";
+}
+
+}  // namespace
+
+/// Verdicts from the effects, one a quantity, beside what was said.
+void OatStudy::judge(const ChangeSpec& change, const std::vector<Effect>& effects, ChangeAnswer& row) const {
+  const auto looked_at = [&](const std::vector<std::string>& list) {
+    std::vector<Effect> of;
+    for (std::size_t q = 0; q < effects.size(); ++q)
+      if (std::find(list.begin(), list.end(), problem_.spec.quantities[q]) != list.end()) of.push_back(effects[q]);
+    return of;
+  };
+  const std::vector<Effect> frequencies = looked_at(settings_.frequency), peaks = looked_at(settings_.peak);
+  row.magnitude = verdict_of(looked_at(settings_.magnitude));
   const std::string spikes = verdict_of(peaks);
-  if (!frequencies.empty()) row["frequency"] = verdict_of(frequencies);
-  if (!peaks.empty()) row["peak"] = spikes;
-  if (c.change.says_magnitude) {
-    row["says_magnitude"] = std::string(enum_name(*c.change.says_magnitude));
-    row["agrees_magnitude"] = agrees(*c.change.says_magnitude, row["magnitude"], spikes);
+  if (!frequencies.empty()) row.frequency = verdict_of(frequencies);
+  if (!peaks.empty()) row.peak = spikes;
+  if (change.says_magnitude) {
+    row.says_magnitude = enum_name(*change.says_magnitude);
+    row.agrees_magnitude = agrees(*change.says_magnitude, *row.magnitude, spikes);
   }
-  if (c.change.says_frequency) {
-    row["says_frequency"] = std::string(enum_name(*c.change.says_frequency));
-    row["agrees_frequency"] = agrees(*c.change.says_frequency, row["frequency"], spikes);
+  if (change.says_frequency) {
+    row.says_frequency = enum_name(*change.says_frequency);
+    row.agrees_frequency = agrees(*change.says_frequency, row.frequency.value_or(""), spikes);
   }
+}
+
+ChangeAnswer OatStudy::row_of(const Comparison& c, const std::vector<Answer>& base,
+                              const std::vector<Answer>& changed) const {
+  ChangeAnswer row;
+  row.name = c.change.name;
+  if (const std::string failure = failure_of(base, changed); !failure.empty()) {
+    row.failure = failure;
+    return row;
+  }
+  std::vector<Effect> effects;
+  for (std::size_t q = 0; q < problem_.spec.quantities.size(); ++q) {
+    effects.push_back(compare(values_of(base, q), values_of(changed, q), settings_.visible, settings_.standard_errors));
+    row.effects[problem_.spec.quantities[q]] = effect_of(problem_.spec.quantities[q], effects.back());
+  }
+  judge(c.change, effects, row);
   return row;
 }
 
-nlohmann::json OatStudy::solve(StudyRun& run) const {
+OatAnswer OatStudy::solve(StudyRun& run) const {
   std::vector<Point> points;
   for (const VariantSpec& variant : settings_.variant)
     for (const Comparison& c : comparisons_)
@@ -222,89 +243,88 @@ nlohmann::json OatStudy::solve(StudyRun& run) const {
     next += static_cast<std::ptrdiff_t>(copies);
     return side;
   };
-  nlohmann::json answer;
-  answer["visible"] = settings_.visible;
-  answer["replicates"] = copies;
-  answer["variants"] = nlohmann::json::array();
+  OatAnswer answer;
+  answer.visible = settings_.visible;
+  answer.replicates = static_cast<std::int64_t>(copies);
   bool any = false;
   for (const VariantSpec& variant : settings_.variant) {
-    nlohmann::json table{{"name", variant.name}, {"changes", nlohmann::json::array()}};
-    int said = 0, agreed = 0;
+    VariantAnswer table;
+    table.name = variant.name;
     for (const Comparison& c : comparisons_) {
       const std::vector<Answer> base = take(), changed = take();
-      nlohmann::json row = row_of(c, base, changed);
-      any = any || row.contains("effects");
-      for (const char* key : {"agrees_magnitude", "agrees_frequency"})
-        if (row.contains(key)) ++said, agreed += row[key].get<bool>();
-      table["changes"].push_back(std::move(row));
+      ChangeAnswer row = row_of(c, base, changed);
+      any = any || !row.effects.empty();
+      for (const auto& agrees : {row.agrees_magnitude, row.agrees_frequency})
+        if (agrees) ++table.said, table.agreed += *agrees;
+      table.changes.push_back(std::move(row));
     }
-    table["said"] = said;
-    table["agreed"] = agreed;
-    answer["variants"].push_back(std::move(table));
+    answer.variants.push_back(std::move(table));
   }
-  if (!any) answer["error"] = "no comparison has an answer on both sides";
+  if (!any) answer.error = "no comparison has an answer on both sides";
   return answer;
 }
 
-std::string OatStudy::text(const nlohmann::json& answer) {
+namespace {
+
+std::string effect_text(const ChangeEffect& e) {
+  std::string text = e.life_factor ? fmt::format("{:.3f}", *e.life_factor) : e.db ? signed_text(*e.db, 2) : "-";
+  if (!e.beyond_noise) text += " n";
+  if (e.responses_before > 1 || e.responses_after > 1) text += " c";
+  return text;
+}
+
+std::vector<std::string> cells_of(const ChangeAnswer& row, bool said, std::size_t columns) {
+  std::vector<std::string> cells{row.name};
+  if (row.failure) {
+    cells.push_back(*row.failure);
+    cells.resize(columns);
+    return cells;
+  }
+  for (const auto& [quantity, effect] : row.effects) cells.push_back(effect_text(effect));
+  for (const auto& verdict : {row.magnitude, row.frequency, row.peak}) cells.push_back(verdict.value_or("-"));
+  if (!said) return cells;
+  std::string says, agreement;
+  const auto add = [&](const std::optional<std::string>& word, const std::optional<bool>& agrees) {
+    if (!word) return;
+    says += (says.empty() ? "" : ", ") + *word;
+    agreement += (agreement.empty() ? "" : ", ") + std::string(agrees.value_or(false) ? "yes" : "no");
+  };
+  add(row.says_magnitude, row.agrees_magnitude);
+  add(row.says_frequency, row.agrees_frequency);
+  cells.push_back(says);
+  cells.push_back(agreement);
+  return cells;
+}
+
+}  // namespace
+
+std::string OatStudy::text(const OatAnswer& answer) {
   std::string words;
-  for (const auto& variant : answer["variants"]) {
+  for (const VariantAnswer& variant : answer.variants) {
     // Names of quantities are long: numbers stand for them in the header.
     std::vector<std::string> header{"change"};
     std::string legend;
-    for (const auto& row : variant["changes"])
-      if (row.contains("effects")) {
-        for (const auto& [q, e] : row["effects"].items()) {
-          legend += fmt::format("  ({}) {}, {}\n", header.size(), q, is_life(q) ? "factor on life" : "dB");
-          header.push_back(fmt::format("({})", header.size()));
-        }
-        break;
+    const auto first = std::find_if(variant.changes.begin(), variant.changes.end(),
+                                    [](const ChangeAnswer& row) { return !row.effects.empty(); });
+    if (first != variant.changes.end())
+      for (const auto& [q, e] : first->effects) {
+        legend += fmt::format("  ({}) {}, {}\n", header.size(), q, is_life(q) ? "factor on life" : "dB");
+        header.push_back(fmt::format("({})", header.size()));
       }
-    const bool said = variant["said"].get<int>() > 0;
+    const bool said = variant.said > 0;
     header.insert(header.end(), {"magnitude", "frequency", "peak"});
     if (said) header.insert(header.end(), {"said", "agrees"});
     Table table(header);
-    for (const auto& row : variant["changes"]) {
-      std::vector<std::string> cells{row["name"]};
-      if (row.contains("failure")) {
-        cells.push_back(row["failure"]);
-        cells.resize(header.size());
-        table.row(std::move(cells));
-        continue;
-      }
-      for (const auto& [q, e] : row["effects"].items()) {
-        std::string cell = e.contains("life_factor") ? fmt::format("{:.3f}", e["life_factor"].get<double>())
-                           : e.contains("db")        ? signed_text(e["db"], 2)
-                                                     : "-";
-        if (!e["beyond_noise"].get<bool>()) cell += " n";
-        if (e["responses_before"].get<int>() > 1 || e["responses_after"].get<int>() > 1) cell += " c";
-        cells.push_back(cell);
-      }
-      for (const char* key : {"magnitude", "frequency", "peak"}) cells.push_back(row.value(key, "-"));
-      if (said) {
-        std::string says, agreement;
-        for (const char* what : {"magnitude", "frequency"}) {
-          const std::string key = std::string("says_") + what;
-          if (!row.contains(key)) continue;
-          says += (says.empty() ? "" : ", ") + row[key].get<std::string>();
-          agreement += (agreement.empty() ? "" : ", ") +
-                       std::string(row[std::string("agrees_") + what].get<bool>() ? "yes" : "no");
-        }
-        cells.push_back(says);
-        cells.push_back(agreement);
-      }
-      table.row(std::move(cells));
-    }
-    words += variant["name"].get<std::string>() + "\n\n" + table.text() + legend;
-    if (said)
-      words += fmt::format("{} of {} verdicts agree\n", variant["agreed"].get<int>(), variant["said"].get<int>());
+    for (const ChangeAnswer& row : variant.changes) table.row(cells_of(row, said, header.size()));
+    words += variant.name + "\n\n" + table.text() + legend;
+    if (said) words += fmt::format("{} of {} verdicts agree\n", variant.agreed, variant.said);
     words += "\n";
   }
   return words + fmt::format(
                      "{} replicates a side; n: within the noise, c: several steady responses coexist. Changes beyond "
                      "noise but\n"
                      "below {:g} % are slight, and count as none beside what is said.\n",
-                     answer["replicates"].get<int>(), 100 * answer["visible"].get<double>());
+                     answer.replicates, 100 * answer.visible);
 }
 
 }  // namespace beltlife

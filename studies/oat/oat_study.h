@@ -2,6 +2,8 @@
 #pragma once
 
 #include "results/course/study_run.h"
+#include "studies/oat/oat.h"
+#include "studies/oat/oat_answer.h"
 
 namespace beltlife {
 
@@ -71,12 +73,13 @@ struct OatSettings {
 class OatStudy {
  public:
   using Settings = OatSettings;
+  using Result = OatAnswer;
   static std::vector<std::string> quantities(const Model& model);
   OatStudy(const LoadedProblem& problem, const OatSettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  OatAnswer solve(StudyRun& run) const;
+  static std::string text(const OatAnswer& answer);
 
  private:
   struct Side {
@@ -88,7 +91,8 @@ class OatStudy {
     Side base, changed;
   };
   std::vector<Point> points_of(const Side& side, const VariantSpec& variant) const;
-  nlohmann::json row_of(const Comparison& c, const std::vector<Answer>& base, const std::vector<Answer>& changed) const;
+  ChangeAnswer row_of(const Comparison& c, const std::vector<Answer>& base, const std::vector<Answer>& changed) const;
+  void judge(const ChangeSpec& change, const std::vector<Effect>& effects, ChangeAnswer& row) const;
 
   LoadedProblem problem_;
   OatSettings settings_;

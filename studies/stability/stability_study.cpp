@@ -33,6 +33,27 @@ struct Bisection {
   double residual = 0;              ///< at the longest stable step
   std::string why;                  ///< of the shortest unstable one
   bool done = false;
+  /// Takes a trial with this step: its answer, of which more than `largest_residual` counts as unstable.
+  void take(double tried, const Answer& a, double largest_residual) {
+    if (a.state == PointState::infeasible || a.state == PointState::timed_out) {
+      done = true;
+      why = a.reason;
+      return;
+    }
+    if (a.ok() && std::abs(a.values[0]) <= largest_residual) {
+      stable = tried;
+      residual = a.values[0];
+    } else {
+      unstable = tried;
+      why = a.ok() ? fmt::format("{:.0f} % of the energy not accounted for", 100 * std::abs(a.values[0])) : a.reason;
+    }
+  }
+
+  void end_if_near(double resolution, double longest) {
+    done = done || (stable > 0 && unstable > 0 && unstable <= stable * (1 + resolution)) ||
+           (unstable == 0 && stable * 2 > longest * predicted) || (stable == 0 && unstable < predicted / longest);
+  }
+
   double next() const {
     if (stable == 0 && unstable == 0) return predicted;
     if (unstable == 0) return 2 * stable;
@@ -136,9 +157,8 @@ PointModel StabilityStudy::model(int threads) const {
   return model_of(problem_, columns, head().quantities, {.threads = threads, .use = LaneUse::arcs, .retry = false});
 }
 
-nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
+std::vector<StableStep> StabilityStudy::bisect(StudyRun& run) const {
   std::vector<Bisection> all;
-  nlohmann::json rows = nlohmann::json::array();
   for (std::size_t i = 0; i < cases_.size(); ++i)
     for (const Scheme scheme : settings_.schemes) {
       Bisection b;
@@ -166,45 +186,18 @@ nlohmann::json StabilityStudy::bisect(StudyRun& run) const {
     }
     const std::vector<Answer> answers = run.evaluate(points, fmt::format("bisection, round {}", round));
     for (std::size_t j = 0; j < which.size(); ++j) {
-      Bisection& b = all[which[j]];
-      const Answer& a = answers[j];
-      if (a.state == PointState::infeasible || a.state == PointState::timed_out) {
-        b.done = true;
-        b.why = a.reason;
-        continue;
-      }
-      const bool stable = a.ok() && std::abs(a.values[0]) <= settings_.largest_residual;
-      if (stable) {
-        b.stable = tried[j];
-        b.residual = a.values[0];
-      } else {
-        b.unstable = tried[j];
-        b.why =
-            a.ok() ? fmt::format("{:.0f} % of the energy not accounted for", 100 * std::abs(a.values[0])) : a.reason;
-      }
-      b.done = (b.stable > 0 && b.unstable > 0 && b.unstable <= b.stable * (1 + settings_.resolution)) ||
-               (b.unstable == 0 && b.stable * 2 > settings_.longest * b.predicted) ||
-               (b.stable == 0 && b.unstable < b.predicted / settings_.longest);
+      all[which[j]].take(tried[j], answers[j], settings_.largest_residual);
+      all[which[j]].end_if_near(settings_.resolution, settings_.longest);
     }
   }
-  for (const Bisection& b : all) {
-    nlohmann::json row{{"case", cases_[b.case_index].name},
-                       {"value", cases_[b.case_index].value},
-                       {"scheme", b.scheme},
-                       {"predicted_s", b.predicted},
-                       {"limited_by", b.limited_by},
-                       {"observed_s", b.stable},
-                       {"beyond_s", b.unstable},
-                       {"observed_over_predicted", b.predicted > 0 ? b.stable / b.predicted : 0},
-                       {"residual", b.residual},
-                       {"why", b.why}};
-    rows.push_back(std::move(row));
-  }
+  std::vector<StableStep> rows;
+  for (const Bisection& b : all)
+    rows.push_back({cases_[b.case_index].name, cases_[b.case_index].value, b.scheme, b.predicted, b.limited_by,
+                    b.stable, b.unstable, b.predicted > 0 ? b.stable / b.predicted : 0, b.residual, b.why});
   return rows;
 }
 
-nlohmann::json StabilityStudy::extremes(StudyRun& run) const {
-  nlohmann::json rows = nlohmann::json::array();
+std::vector<ExtremeCase> StabilityStudy::extremes(StudyRun& run) const {
   std::vector<Point> points;
   for (const Case& c : extremes_) {
     SceneSpec scene = problem_.scene->file.scene;  // a case may bring its own scheme and step
@@ -213,53 +206,50 @@ nlohmann::json StabilityStudy::extremes(StudyRun& run) const {
     points.push_back(point(c, false, enum_name(scene.solver.scheme), step ? fmt::format("{}", *step) : ""));
   }
   const std::vector<Answer> answers = run.evaluate(points, "extreme cases");
+  std::vector<ExtremeCase> rows;
   for (std::size_t i = 0; i < extremes_.size(); ++i) {
-    double step = 0;
+    ExtremeCase row{extremes_[i].name, joined_lines(extremes_[i].settings)};
     try {
-      step = run_step(drive_at(points[i]));
+      row.step_s = run_step(drive_at(points[i]));
     } catch (const BadInput&) {
       // The answer says what was wrong.
     }
-    rows.push_back({{"case", extremes_[i].name},
-                    {"settings", joined_lines(extremes_[i].settings)},
-                    {"step_s", step},
-                    {"state", std::string(to_string(answers[i].state))},
-                    {"reason", answers[i].reason},
-                    {"residual", answers[i].ok() ? answers[i].values[0] : 0},
-                    {"drift", answers[i].ok() ? answers[i].values[1] : 0},
-                    {"processor_s", answers[i].processor_s}});
+    row.state = to_string(answers[i].state);
+    row.reason = answers[i].reason;
+    if (answers[i].ok()) {
+      row.residual = answers[i].values[0];
+      row.drift = answers[i].values[1];
+    }
+    row.processor_s = answers[i].processor_s;
+    rows.push_back(std::move(row));
   }
   return rows;
 }
 
-nlohmann::json StabilityStudy::solve(StudyRun& run) const {
-  nlohmann::json answer;
-  answer["range"] = range_;
-  answer["extremes"] = extremes(run);
-  answer["steps"] = bisect(run);
+StabilityAnswer StabilityStudy::solve(StudyRun& run) const {
+  StabilityAnswer answer;
+  answer.range = range_;
+  answer.extremes = extremes(run);
+  answer.steps = bisect(run);
   return answer;
 }
 
-std::string StabilityStudy::text(const nlohmann::json& answer) {
-  const auto seconds = [](const nlohmann::json& s) {
-    return s.get<double>() > 0 ? fmt::format("{:.3g}", s.get<double>()) : std::string("-");
-  };
+std::string StabilityStudy::text(const StabilityAnswer& answer) {
+  const auto seconds = [](double s) { return s > 0 ? fmt::format("{:.3g}", s) : std::string("-"); };
+  const auto percent = [](double share) { return fmt::format("{:.2g}", 100 * share); };
   Table steps(
       {"case", "value", "scheme", "predicted s", "observed s", "ratio", "residual %", "limited by", "beyond it"});
-  for (const auto& r : answer["steps"])
-    steps.row({r["case"], r["value"], r["scheme"], seconds(r["predicted_s"]), seconds(r["observed_s"]),
-               seconds(r["observed_over_predicted"]), fmt::format("{:.2g}", 100 * r["residual"].get<double>()),
-               r["limited_by"], shortened(r["why"])});
+  for (const StableStep& r : answer.steps)
+    steps.row({r.name, r.value, r.scheme, seconds(r.predicted_s), seconds(r.observed_s),
+               seconds(r.observed_over_predicted), percent(r.residual), r.limited_by, shortened(r.why)});
   Table cases({"case", "step s", "ended", "residual %", "drift %", "processor s", "reason"});
-  for (const auto& r : answer["extremes"])
-    cases.row({r["case"], seconds(r["step_s"]), r["state"], fmt::format("{:.2g}", 100 * r["residual"].get<double>()),
-               fmt::format("{:.2g}", 100 * r["drift"].get<double>()),
-               fmt::format("{:.2g}", r["processor_s"].get<double>()), r["reason"]});
+  for (const ExtremeCase& r : answer.extremes)
+    cases.row({r.name, seconds(r.step_s), r.state, percent(r.residual), percent(r.drift),
+               fmt::format("{:.2g}", r.processor_s), r.reason});
   std::string words;
-  if (!answer["steps"].empty())
-    words += "Longest stable step, predicted and observed, range " + answer["range"].get<std::string>() + "\n\n" +
-             steps.text() + "\n";
-  if (!answer["extremes"].empty()) words += "Extreme cases, run as scenes are\n\n" + cases.text() + "\n";
+  if (!answer.steps.empty())
+    words += "Longest stable step, predicted and observed, range " + answer.range + "\n\n" + steps.text() + "\n";
+  if (!answer.extremes.empty()) words += "Extreme cases, run as scenes are\n\n" + cases.text() + "\n";
   return words;
 }
 

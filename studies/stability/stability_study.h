@@ -2,6 +2,7 @@
 #pragma once
 
 #include "results/course/study_run.h"
+#include "studies/stability/stability_answer.h"
 
 namespace beltlife {
 
@@ -63,20 +64,21 @@ struct StabilitySettings {
 class StabilityStudy {
  public:
   using Settings = StabilitySettings;
+  using Result = StabilityAnswer;
   static std::vector<std::string> quantities(const Model&) { return {}; }
   StabilityStudy(const LoadedProblem& problem, const StabilitySettings& settings, ReadLog& log);
   StudyHead head() const;
   PointModel model(int threads) const;
-  nlohmann::json solve(StudyRun& run) const;
-  static std::string text(const nlohmann::json& answer);
+  StabilityAnswer solve(StudyRun& run) const;
+  static std::string text(const StabilityAnswer& answer);
 
  private:
   struct Case {
     std::string name, value;            ///< of tables
     std::vector<std::string> settings;  ///< on top of the scene
   };
-  nlohmann::json bisect(StudyRun& run) const;
-  nlohmann::json extremes(StudyRun& run) const;
+  std::vector<StableStep> bisect(StudyRun& run) const;
+  std::vector<ExtremeCase> extremes(StudyRun& run) const;
   /// As the short trials run it, or as the scene says; no text as step: the predicted one.
   Point point(const Case& c, bool trial, std::string_view scheme, const std::string& step_s) const;
   /// In the condition of the range that is run.

@@ -1,4 +1,6 @@
 // Owns the claims about `beltlife life`: its answer, the flank height for a wanted life, and several scenes at once.
+#include <cmath>
+
 #include "tests/system/command.h"
 
 namespace beltlife::system_test {
@@ -45,11 +47,18 @@ TEST(Life, ReachesTheWantedHoursAtTheFlankHeightItStates) {
   EXPECT_NEAR(changed["life_h"].get<double>() / 2000, 1, 1e-3);
 }
 
-TEST(Life, AsksTheSameLifeForAScaledStrengthAsForTheScaledStresses) {
+// Thesis (6.4): N = (sigma_a / (sigma_f - sigma_m))^(1/b) / 2, with sigma_f 10 and 20 MPa, b = -0.068.
+TEST(Life, GrowsWithTheStrengthAsBasquinsRuleHasIt) {
   const Arguments drive = Arguments{scene("two_pulley")} + brief(64);
   const auto weak = life(drive), strong = life(drive + Arguments{"--set", "fatigue.strength_mpa=20"});
-  EXPECT_GT(strong["life_h"], weak["life_h"]);
-  EXPECT_EQ(strong["ranges"]["fast"]["pulleys"][0]["sigma_a_mpa"], weak["ranges"]["fast"]["pulleys"][0]["sigma_a_mpa"]);
+  const auto &of_weak = weak["ranges"]["fast"]["pulleys"], &of_strong = strong["ranges"]["fast"]["pulleys"];
+  ASSERT_EQ(of_weak.size(), 2u);
+  for (std::size_t p = 0; p < of_weak.size(); ++p) {
+    const double mean = of_weak[p]["sigma_m_mpa"];
+    EXPECT_EQ(of_strong[p]["sigma_a_mpa"], of_weak[p]["sigma_a_mpa"]) << "the strength is no part of the simulation";
+    const double factor = std::pow((20 - mean) / (10 - mean), 1 / 0.068);
+    EXPECT_NEAR(of_strong[p]["cycles"].get<double>() / (of_weak[p]["cycles"].get<double>() * factor), 1, 1e-9) << p;
+  }
 }
 
 TEST_F(InFolder, LifeComparesSeveralScenesInTheOrderGiven) {

@@ -34,7 +34,7 @@ LayoutLimitsSpec no_minima() {
 
 std::map<std::string, double> values(const SceneSpec& scene, const LayoutLimitsSpec& spec) {
   std::map<std::string, double> all;
-  for (const Clearance& c : layout_limits(scene, spec)) all[c.name] = c.value;
+  for (const LayoutLimit& c : layout_limits(scene, spec)) all[c.name] = c.value;
   return all;
 }
 
@@ -246,7 +246,7 @@ TEST(LayoutLimits, OfADriveTunedOntoAnOrderSayWhichFrequencyMeetsIt) {
   const double hz = solve_modes(compile(scene), scene.range[0]).arms[0].modes.back().frequency_hz;
   LayoutLimitsSpec spec = no_minima();
   spec.modes = ModesLimitSpec{{hz * 60 / scene.range[0].crank_rpm}, 5};
-  for (const Clearance& c : layout_limits(scene, spec))
+  for (const LayoutLimit& c : layout_limits(scene, spec))
     if (c.name == "modes in " + scene.range[0].name) {
       EXPECT_NEAR(c.value, -5, 1e-6);  // percent: exactly on it, but for rounding
       EXPECT_NE(c.words.find(" Hz is 0.0 % away from order "), c.words.npos) << c.words;
@@ -279,7 +279,7 @@ TEST(LayoutLimits, AreOneListForAllLayoutsAndNegativeExactlyWhereStaticsRefuses)
   int accepted = 0, refused = 0;
   for (int i = 0; i < 1000; ++i) {
     const SceneSpec scene = moved(base, i % 2 ? 60 : 180, random);
-    std::vector<Clearance> limits;
+    std::vector<LayoutLimit> limits;
     ASSERT_NO_THROW(limits = layout_limits(scene, spec));
     ASSERT_EQ(limits.size(), first.size());
     bool clear = true;
@@ -308,7 +308,7 @@ TEST(LayoutLimits, ChangeLittleWithSmallMovesAlsoAcrossTheBorderOfWhatCanBeBuilt
   const LayoutLimitsSpec spec = no_minima();
   const auto clear = [&](const SceneSpec& scene) {
     const auto limits = layout_limits(scene, spec);
-    return std::all_of(limits.begin(), limits.end(), [](const Clearance& c) { return c.value >= 0; });
+    return std::all_of(limits.begin(), limits.end(), [](const LayoutLimit& c) { return c.value >= 0; });
   };
   std::mt19937_64 random(2);
   int borders = 0;
@@ -369,10 +369,10 @@ TEST(LayoutLimits, AreFiniteWhereNothingCouldEverBeBuilt) {
          std::vector<std::function<void(SceneSpec&)>>{points, row, pivot, reversed, sides}) {
       SceneSpec scene = drive;
       spoil(scene);
-      std::vector<Clearance> limits;
+      std::vector<LayoutLimit> limits;
       ASSERT_NO_THROW(limits = layout_limits(scene, spec, RunningDetail::without_bending_loss));
       EXPECT_EQ(limits.size(), count(drive));
-      for (const Clearance& c : limits) EXPECT_TRUE(std::isfinite(c.value)) << c.name;
+      for (const LayoutLimit& c : limits) EXPECT_TRUE(std::isfinite(c.value)) << c.name;
     }
 }
 
@@ -383,7 +383,7 @@ TEST(LayoutLimits, GrowAsALayoutGoesFurtherFromWhatCanBeBuilt) {
     scene.pulley[2].x_mm = x;
     scene.pulley[2].y_mm = 400;
     double sum = 0;
-    for (const Clearance& c : layout_limits(scene, no_minima())) sum += std::max(-c.value, 0.0);
+    for (const LayoutLimit& c : layout_limits(scene, no_minima())) sum += std::max(-c.value, 0.0);
     EXPECT_GE(sum, before) << x;
     before = sum;
   }
@@ -391,8 +391,8 @@ TEST(LayoutLimits, GrowAsALayoutGoesFurtherFromWhatCanBeBuilt) {
 
 TEST(LayoutLimits, AreKeptByTheShippedDrivesButForTwoPulleysOfAlternative2) {
   for (const char* name : {"baseline", "alternative_1", "alternative_2", "alternative_3", "accessory_drive"}) {
-    std::vector<Clearance> broken;
-    for (const Clearance& c : layout_limits(layout_base(shipped(name)), {}))
+    std::vector<LayoutLimit> broken;
+    for (const LayoutLimit& c : layout_limits(layout_base(shipped(name)), {}))
       if (c.value < 0) broken.push_back(c);
     if (std::string(name) != "alternative_2") {
       EXPECT_TRUE(broken.empty()) << name << ": " << broken[0].words;

@@ -6,6 +6,7 @@
 #include <random>
 #include <span>
 
+#include "results/answer/answer_json.h"
 #include "results/course/study_run.h"
 #include "studies/openturns/openturns_inputs.h"
 #include "tests/unit/study_fixture.h"
@@ -79,8 +80,8 @@ inline bool fails_by_chance(const std::vector<double>& x) {
 
 /// The answer of a kind whose points are answered by `model`, with its log in `folder`.
 template <class Kind>
-auto answer_of(const LoadedProblem& problem, const typename Kind::Settings& settings, const PointModel& model,
-               const fs::path& folder) {
+nlohmann::json answer_of(const LoadedProblem& problem, const typename Kind::Settings& settings, const PointModel& model,
+                         const fs::path& folder) {
   DriverOptions o;
   o.file = "toy.toml";
   o.out = folder / "toy.h5";
@@ -90,8 +91,11 @@ auto answer_of(const LoadedProblem& problem, const typename Kind::Settings& sett
   const Kind kind(problem, settings, log);
   throw_problems(log.problems);
   StudyRun run(o, problem, kind.head(), model);
-  auto answer = kind.solve(run);
-  run.finish(answer, {});
+  auto found = kind.solve(run);
+  found.evaluations = run.evaluations();
+  found.failed = run.failed();
+  const nlohmann::json answer = json_of_answer(found);
+  run.finish(answer, notes_of<typename Kind::Result>());
   return answer;
 }
 

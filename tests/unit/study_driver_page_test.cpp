@@ -192,16 +192,15 @@ TEST(StudyDriverPage, OfSobolHasSharesWithIntervalsAndSaysWhetherTheyConverged) 
   expect_words(page_of_study(r, "s"), {"It has converged.", "Converged: the widest"});
 }
 
-TEST(StudyDriverPage, OfASurrogateWarnsOfOneThatForetellsBadly) {
+TEST(StudyDriverPage, OfASurrogateWarnsOfOneThatPredictsBadly) {
   StudyRecord r = surrogate();
   const std::string page = page_of_study(r, "g.jsonl");
   expect_sound(page);
   expect_ids(page, {"surrogate", "study-surrogate", "shares", "shares-0", "study-shares-0"});
-  expect_words(page,
-               {"class=\"alarm\">0.8125<", "one quantity foretells less than 90 %", ">0.375<", ">2.25<", "chaos"});
+  expect_words(page, {"class=\"alarm\">0.8125<", "one quantity predicts less than 90 %", ">0.375<", ">2.25<", "chaos"});
   EXPECT_EQ(page.find(">interval<"), page.npos);
   r.answer["quantities"]["B1.a_n_m"]["q2"] = 0.97;
-  expect_words(page_of_study(r, "g"), {"foretells at least 90 %"});
+  expect_words(page_of_study(r, "g"), {"predicts at least 90 %"});
 }
 
 TEST(StudyDriverPage, OfUncertaintyHasDistributionsPercentilesAndTheTarget) {

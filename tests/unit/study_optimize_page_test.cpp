@@ -53,6 +53,12 @@ json layout(double x_mm) {
             {{"name", "a & b-crank"}, {"from_mm", {x_mm, 50}}, {"to_mm", {0, 100}}}}}};
 }
 
+json active(const char* kind, const std::string& name, double value, double bound, bool at_most, const char* unit) {
+  return {{"kind", kind},   {"name", name},       {"value", value},
+          {"bound", bound}, {"at_most", at_most}, {"left", at_most ? bound - value : value - bound},
+          {"unit", unit}};
+}
+
 StudyRecord search() {
   StudyRecord r = record_of("optimize", {x, side}, {"log10_life_h", "B100.pulley.<b>.hub_load_n.mean"});
   r.head.study_text =
@@ -76,10 +82,10 @@ StudyRecord search() {
       {"comparison",
        {comparison(1, false, 0.0625, 0.75, "not told apart"), comparison(0, true, 1, 0.9999, "better beyond <doubt>")}},
       {"active",
-       {{{"kind", "limit"}, {"name", "wrap on crank"}, {"left", 0.5}, {"unit", "deg"}},
-        {{"kind", "limit"}, {"name", "pulleys crank and a & b"}, {"left", 0.25}, {"unit", "mm"}},
-        {{"kind", "constraint"}, {"name", "the <bearing>"}, {"left", 19.75}, {"unit", "N"}},
-        {{"kind", "lower bound"}, {"name", x}, {"left", 0.25}, {"unit", "mm"}}}},
+       {active("limit", "wrap on crank", 120.5, 120, false, "deg"),
+        active("limit", "keep-out frame and belt crank-a & b", 0.25, 0, false, "mm"),
+        active("constraint", "the <bearing>", 1260.25, 1280, true, "N"),
+        active("lower bound", x, -239.75, -240, false, "mm")}},
       {"governing",
        {{"start", {{"range", "idle"}, {"range_share", 0.5}, {"pulley", "crank"}, {"pulley_share", 0.75}}},
         {"best", {{"range", "B<100>"}, {"range_share", 0.875}, {"pulley", "a & b"}, {"pulley_share", 0.625}}}}},
@@ -109,10 +115,17 @@ TEST(StudyOptimizePage, HasGainLayoutsCourseFinalistsLivesAndLimits) {
 
 TEST(StudyOptimizePage, StatesEveryLimitWithItsOwnBound) {
   const std::string page = page_of_study(search(), "o");
-  // 120 of the pulley's own entry, not the 15 of all; value = bound + what is left.
-  expect_words(page, {"wrap on crank", ">120.5<", ">at least 120<", "pulleys crank and a &amp; b", ">9.25<",
-                      ">at least 9<", ">1260.2<", ">at most 1280<", ">-239.75<", ">at least -240<"});
+  expect_words(page, {"wrap on crank", ">120.5<", ">at least 120<", "keep-out frame and belt crank-a &amp; b", ">0.25<",
+                      ">at least 0<", ">1260.2<", ">at most 1280<", ">-239.75<", ">at least -240<"});
   expect_words(page, {"4 <a href=\"#active\">limits and bounds hold it back</a>"});
+}
+
+TEST(StudyOptimizePage, SaysWhereAnOldLogLacksTheBound) {
+  StudyRecord r = search();
+  r.answer["active"] = {{{"kind", "limit"}, {"name", "wrap on crank"}, {"left", 0.5}, {"unit", "deg"}}};
+  const std::string page = page_of_study(r, "o");
+  expect_sound(page);
+  expect_words(page, {"wrap on crank", ">not in this log<", ">0.5<"});
 }
 
 TEST(StudyOptimizePage, MarksTheParameterThatRestsOnItsBoundAndTheChangedChoice) {

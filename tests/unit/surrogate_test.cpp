@@ -1,4 +1,4 @@
-// Owns the claims about surrogates: they foretell what they say they foretell, and say so when they cannot.
+// Owns the claims about surrogates: they predict what they say they predict, and say so when they cannot.
 #include "studies/surrogate/surrogate_study.h"
 #include "tests/unit/sampled_fixture.h"
 
@@ -18,8 +18,8 @@ Sample sample_of(const std::vector<ParameterSpec>& parameters, const Function& f
   return s;
 }
 
-/// Share of the variance that a surrogate foretells at 1000 points of its own.
-double share_foretold(const Surrogate& s, const std::vector<ParameterSpec>& parameters, const Function& f) {
+/// Share of the variance that a surrogate predicts at 1000 points of its own.
+double share_predicted(const Surrogate& s, const std::vector<ParameterSpec>& parameters, const Function& f) {
   const Sample fresh = sample_of(parameters, f, 1000, SamplingMethod::monte_carlo, 77);
   double mean = 0, errors = 0, variance = 0;
   for (const double v : fresh.values) mean += v / 1000;
@@ -35,7 +35,7 @@ TEST(Chaos, OfIshigamiForetellsAndKnowsTheIndices) {
   const Sample s = sample_of(parameters, ishigami, 300);
   const Surrogate chaos = chaos_surrogate(parameters, s.at, s.values, 8);
   EXPECT_GE(chaos.q2, 0.99);
-  EXPECT_NEAR(share_foretold(chaos, parameters, ishigami), chaos.q2, 0.01);
+  EXPECT_NEAR(share_predicted(chaos, parameters, ishigami), chaos.q2, 0.01);
   EXPECT_LT(chaos.terms, 60u);  // of 165
   for (std::size_t p = 0; p < 3; ++p) {
     EXPECT_NEAR(chaos.first[p], ishigami_first[p], 0.01);
@@ -48,7 +48,7 @@ TEST(Chaos, OfTooLowADegreeSaysSo) {
   const Sample s = sample_of(parameters, ishigami, 300);
   const Surrogate chaos = chaos_surrogate(parameters, s.at, s.values, 3);
   EXPECT_LT(chaos.q2, 0.7);
-  EXPECT_NEAR(share_foretold(chaos, parameters, ishigami), chaos.q2, 0.1);
+  EXPECT_NEAR(share_predicted(chaos, parameters, ishigami), chaos.q2, 0.1);
   // x1 and x3 interact: with what each does alone their totals make up the rest, twice for the interaction.
   double alone = 0, any = 0;
   for (std::size_t p = 0; p < 3; ++p) {
@@ -73,7 +73,7 @@ TEST(Chaos, OfASumOverAnyDistributionsIsExact) {
   const Sample s = sample_of(parameters, sum, 150);
   const Surrogate chaos = chaos_surrogate(parameters, s.at, s.values, 2);
   EXPECT_GT(chaos.q2, 1 - 1e-9);
-  EXPECT_GT(share_foretold(chaos, parameters, sum), 1 - 1e-9);
+  EXPECT_GT(share_predicted(chaos, parameters, sum), 1 - 1e-9);
   const double var_log = std::pow(std::log(100), 2) / 12, var_t = 13.0 / 18, var_l = std::log1p(0.0625);
   EXPECT_NEAR(chaos.first[4] / chaos.first[0], var_log / 0.49, 1e-6);
   EXPECT_NEAR(chaos.total[2] / chaos.first[0], var_t / 0.49, 1e-6);
@@ -86,7 +86,7 @@ TEST(Kriging, ForetellsWhatItSays) {
   const Surrogate kriging = kriging_surrogate(parameters, s.at, s.values);
   EXPECT_GT(kriging.q2, 0.9);
   // Left out, a point is missed by more than it will be: the others stand less densely.
-  EXPECT_NEAR(share_foretold(kriging, parameters, ishigami), kriging.q2, 0.06);
+  EXPECT_NEAR(share_predicted(kriging, parameters, ishigami), kriging.q2, 0.06);
 }
 
 // Leave-one-out errors do not repeat the choice of terms, hence not quite 0.

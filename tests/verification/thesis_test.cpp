@@ -50,8 +50,9 @@ TEST(ThesisDrive, DoesNotSlipAtItsFriction) {
 
 TEST(ThesisDrive, SlipsGrosslyIfItsTorqueActedAtTheTurbine) {
   const RunRecord record = b100({"torque.turbine_torque.referred_to=turbine"});
-  EXPECT_GT(std::abs(mean(record, "pulley.drive.slip_percent")),
-            10);  // ten times the torque, far past the friction limit
+  // The crank drags the belt over the drive pulley, which turns 23 % too slowly: 23.2 % with 512 elements. Means over
+  // 0.2 s differ by 2 % of it, and the coarser mesh shifts it by less.
+  EXPECT_NEAR(mean(record, "pulley.drive.slip_percent"), -23.2, 1);
 }
 
 TEST(ThesisDrive, AnswersTheEngineLessOnceItsFrictionFallsBelowTheThreshold) {
