@@ -40,6 +40,39 @@ Eigen::VectorXd newton_step(const Curvature& c, const std::vector<Eigen::Index>&
   return scale.asDiagonal() * step;
 }
 
+/// A place on the way along one parameter: the others go where they cost least.
+struct Place {
+  std::size_t profile = 0, parameter = 0;
+  std::vector<double> u;
+  double cost = infinity;
+};
+
+/// The profile through pairs of u and cost, that of the fit's end among them.
+Profile profile_along(std::vector<std::pair<double, double>> line, double end_u, double end_cost, const Inference& in) {
+  std::sort(line.begin(), line.end());
+  // Signed root of the likelihood ratio: a straight line where the model is linear.
+  const auto root = [&](const std::pair<double, double>& at) {
+    const double rise = std::max(at.second - end_cost, 0.0);
+    return (at.first < end_u ? -1 : 1) * std::sqrt(2 * rise) / in.scale;
+  };
+  const auto crossing = [&](double level) {
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const double a = root(line[k]), b = root(line[k + 1]);
+      if (std::min(a, b) <= level && level <= std::max(a, b) && a != b)
+        return line[k].first + (level - a) / (b - a) * (line[k + 1].first - line[k].first);
+    }
+    return nan;
+  };
+  Profile profile;
+  profile.low = crossing(-in.quantile);
+  profile.high = crossing(in.quantile);
+  for (const auto& [u, cost] : line) {
+    profile.u.push_back(u);
+    profile.cost.push_back(cost);
+  }
+  return profile;
+}
+
 }  // namespace
 
 Inference infer(const FitModel& model, const FitResult& end, double confidence, double loss_scale, bool model_error) {
@@ -109,11 +142,6 @@ std::vector<Profile> profiles(FitModel& model, const FitResult& end, const Infer
   const Eigen::VectorXd w = loss_weights(end.end.residuals, targets, loss_scale);
   const Curvature c = curvature_of(end.end, w);
 
-  struct Place {
-    std::size_t profile = 0, parameter = 0;
-    std::vector<double> u;
-    double cost = infinity;
-  };
   const auto others = [&](std::size_t fixed) {
     std::vector<Eigen::Index> at;
     for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -162,32 +190,12 @@ std::vector<Profile> profiles(FitModel& model, const FitResult& end, const Infer
     }
   }
 
-  std::vector<Profile> out(which.size());
+  std::vector<Profile> out;
   for (std::size_t p = 0; p < which.size(); ++p) {
-    const std::size_t i = which[p];
-    std::vector<std::pair<double, double>> line{{end.u[i], end.cost}};
+    std::vector<std::pair<double, double>> line{{end.u[which[p]], end.cost}};
     for (const Place& place : places)
-      if (place.profile == p && std::isfinite(place.cost)) line.emplace_back(place.u[i], place.cost);
-    std::sort(line.begin(), line.end());
-    // Signed root of the likelihood ratio: a straight line where the model is linear.
-    const auto root = [&](const std::pair<double, double>& at) {
-      const double rise = std::max(at.second - end.cost, 0.0);
-      return (at.first < end.u[i] ? -1 : 1) * std::sqrt(2 * rise) / inference.scale;
-    };
-    const auto crossing = [&](double level) {
-      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-        const double a = root(line[k]), b = root(line[k + 1]);
-        if (std::min(a, b) <= level && level <= std::max(a, b) && a != b)
-          return line[k].first + (level - a) / (b - a) * (line[k + 1].first - line[k].first);
-      }
-      return nan;
-    };
-    out[p].low = crossing(-inference.quantile);
-    out[p].high = crossing(inference.quantile);
-    for (const auto& [u, cost] : line) {
-      out[p].u.push_back(u);
-      out[p].cost.push_back(cost);
-    }
+      if (place.profile == p && std::isfinite(place.cost)) line.emplace_back(place.u[which[p]], place.cost);
+    out.push_back(profile_along(std::move(line), end.u[which[p]], end.cost, inference));
   }
   return out;
 }

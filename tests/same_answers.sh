@@ -20,10 +20,13 @@ for build in old new; do
     -e 's/^elements *= *\[[^]]*\]/elements = [64, 128]/' -e 's/^step_budget *=.*/step_budget = 2e6/' {} +
 done
 
-# What differs from run to run, or says which program ran.
+# What differs from run to run, says which program ran, or is how a page looks. Points of a log stand in the order in
+# which they were finished.
 normal() {
-  sed -E -e 's/"(wall_s|processor_s|seconds|simulated_s_per_s)": *-?[0-9.e+-]+//g' -e 's/"(version|revision|compiler|command_line)": *"[^"]*"//g' \
-    -e 's/[0-9.]+ (s|min|h) of processor time//g' "$1"
+  local order=cat
+  [[ $1 == *.jsonl ]] && order=sort
+  $order "$1" | sed -E -e '/<style>/,/<\/style>/d' -e 's/"(wall_s|processor_s|seconds|simulated_s_per_s)": *-?[0-9.e+-]+//g' -e 's/"(version|revision|compiler|command_line)": *"[^"]*"//g' \
+    -e 's/[0-9.]+ (s|min|h) of processor time//g'
 }
 
 # same NAME ARGUMENTS...: runs both builds in their folders; compares exit code, standard output, and files named NAME.*

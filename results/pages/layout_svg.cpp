@@ -89,6 +89,27 @@ std::string dashed(const Model& m, double arm_angle, double scale, X x, Y y) {
   return s + "</g>\n";
 }
 
+/// Pulleys by the side of the belt that runs on them, and the tensioner's arm.
+template <class X, class Y>
+std::string pulleys_and_arm(const Model& m, const std::vector<Circle>& circles, double scale, X x, Y y) {
+  std::string s;
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    const Circle& c = circles[i];
+    const bool front = m.scene.pulley[i].side == Side::front;
+    s += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" stroke=\"#999\"/>\n", x(c.x), y(c.y),
+                     c.radius * scale, front ? "#e9eef3" : "#f4efe6");
+  }
+  if (m.tensioner.pulley >= 0) {
+    const Circle& c = circles[static_cast<std::size_t>(m.tensioner.pulley)];
+    s += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#555\" stroke-width=\"6\" "
+        "stroke-linecap=\"round\" "
+        "opacity=\"0.6\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"#333\"/>\n",
+        x(m.tensioner.pivot_x), y(m.tensioner.pivot_y), x(c.x), y(c.y), x(m.tensioner.pivot_x), y(m.tensioner.pivot_y));
+  }
+  return s;
+}
+
 }  // namespace
 
 void make_room(SharedDrawing& box, const Model& m, double arm_angle, const std::vector<double>& tension) {
@@ -128,20 +149,7 @@ std::string layout_svg(const Model& m, double arm_angle, const std::vector<doubl
       "aria-label=\"layout to "
       "scale, spans coloured by tension\" font-family=\"Helvetica, sans-serif\" font-size=\"12\">\n",
       id, width, height);
-  for (std::size_t i = 0; i < circles.size(); ++i) {
-    const Circle& c = circles[i];
-    const bool front = m.scene.pulley[i].side == Side::front;
-    s += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" stroke=\"#999\"/>\n", x(c.x), y(c.y),
-                     c.radius * scale, front ? "#e9eef3" : "#f4efe6");
-  }
-  if (m.tensioner.pulley >= 0) {
-    const Circle& c = circles[static_cast<std::size_t>(m.tensioner.pulley)];
-    s += fmt::format(
-        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#555\" stroke-width=\"6\" "
-        "stroke-linecap=\"round\" "
-        "opacity=\"0.6\"/><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"#333\"/>\n",
-        x(m.tensioner.pivot_x), y(m.tensioner.pivot_y), x(c.x), y(c.y), x(m.tensioner.pivot_x), y(m.tensioner.pivot_y));
-  }
+  s += pulleys_and_arm(m, circles, scale, x, y);
   if (box.beneath) s += dashed(*box.beneath, box.beneath_arm, scale, x, y);
   const double low = box.slack_n, high = box.tight_n;
   const std::size_t n = circles.size();

@@ -87,7 +87,7 @@ TEST(Answers, GiveTheirUnitsAndMeaningsToFiles) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "answer_units.h5";
   Hdf5Image file;
   put_answer(file, "/answer", json_of_answer(example()), notes_of<NoiseAnswer>(), "what was found");
-  const std::string bytes = file.bytes();
+  const auto bytes = file.bytes();
   std::FILE* out = std::fopen(path.c_str(), "wb");
   ASSERT_EQ(std::fwrite(bytes.data(), 1, bytes.size(), out), bytes.size());
   std::fclose(out);

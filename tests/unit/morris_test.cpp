@@ -123,7 +123,7 @@ TEST_F(MorrisKind, TakesTheWholeRangeOfAParameterAndItsLogarithm) {
   EXPECT_NEAR(q["a"]["sigma"], 0, 1e-12);
   EXPECT_EQ(q["a"]["effects"], 20);
   EXPECT_EQ(answer["evaluations"], 16);  // 60 points of which the 4 x 4 levels are not run twice
-  expect_words(MorrisStudy::text(answer), {"mu*", "a", "12", "20"});
+  expect_words(text_of<MorrisStudy>(answer), {"mu*", "a", "12", "20"});
 }
 
 TEST_F(MorrisKind, MarksWhatIsNoMoreThanNoise) {
@@ -141,7 +141,7 @@ TEST_F(MorrisKind, MarksWhatIsNoMoreThanNoise) {
   EXPECT_FALSE(q["a"]["within_noise"]);
   EXPECT_TRUE(q["b"]["within_noise"]);
   EXPECT_NEAR(q["a"]["noise_floor"], mu_star_of_noise(0.5, 4, 20), 1e-12);
-  expect_words(MorrisStudy::text(answer), {"no more than noise", "above noise"});
+  expect_words(text_of<MorrisStudy>(answer), {"no more than noise", "above noise"});
 
   problem.spec.quantities = {"z"};
   expect_words(refusal_of<MorrisStudy>(problem, settings), {"study.noise", "does not know z"});
@@ -154,7 +154,7 @@ TEST_F(MorrisKind, LivesWithFailuresOfAll) {
   const auto answer = answer_of<MorrisStudy>(problem, {}, toy({ishigami}, [](const auto&) { return true; }), folder);
   EXPECT_EQ(answer["quantities"]["y"]["a"]["effects"], 0);
   EXPECT_TRUE(answer["quantities"]["y"]["a"]["mu"].is_null());
-  expect_words(MorrisStudy::text(answer), {"-"});
+  expect_words(text_of<MorrisStudy>(answer), {"-"});
 }
 
 TEST_F(MorrisKind, RefusesOddLevelsAndMissingBounds) {

@@ -99,6 +99,12 @@ nlohmann::json answer_of(const LoadedProblem& problem, const typename Kind::Sett
   return answer;
 }
 
+/// An answer for people.
+template <class Kind>
+std::string text_of(const nlohmann::json& answer) {
+  return Kind::text(answer_of_json<typename Kind::Result>(answer));
+}
+
 /// What a kind refuses of a problem, in words.
 template <class Kind>
 std::string refusal_of(const LoadedProblem& problem, const typename Kind::Settings& settings) {

@@ -201,19 +201,19 @@ TEST_F(SobolKind, SaysWhetherItConvergedAndWhatItWouldTake) {
   EXPECT_FALSE(q["converged"]);
   const double width = q["widest_interval"];
   EXPECT_NEAR(q["samples_needed"], 64 * std::pow(width / 0.1, 2), 1);
-  expect_words(SobolStudy::text(few), {"Not converged", "samples = ", "x1"});
+  expect_words(text_of<SobolStudy>(few), {"Not converged", "samples = ", "x1"});
   const auto many = answer_of<SobolStudy>(problem, settings_of(4096), toy({ishigami}), folder);
   EXPECT_TRUE(many["quantities"]["y"]["converged"]);
-  expect_words(SobolStudy::text(many), {"Converged: "});
+  expect_words(text_of<SobolStudy>(many), {"Converged: "});
 }
 
 TEST_F(SobolKind, DoesNotBreakOnConstantsAndOnFailureOfAll) {
   const LoadedProblem problem = toy_problem(ishigami_inputs(), {"y"});
   const auto constant = answer_of<SobolStudy>(problem, settings_of(16), toy({[](const auto&) { return 2.0; }}), folder);
-  expect_words(SobolStudy::text(constant), {"does not vary"});
+  expect_words(text_of<SobolStudy>(constant), {"does not vary"});
   const auto failed =
       answer_of<SobolStudy>(problem, settings_of(16), toy({ishigami}, [](const auto&) { return true; }), folder);
-  expect_words(SobolStudy::text(failed), {"only 0 of 16 base rows"});
+  expect_words(text_of<SobolStudy>(failed), {"only 0 of 16 base rows"});
 }
 
 TEST_F(SobolKind, RefusesParametersOfUnknownScatter) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "calibrate/pages/calibrate_charts.h"
+#include "results/answer/answer_json.h"
 #include "tests/unit/study_page_fixture.h"
 
 namespace beltlife::study_test {
@@ -287,13 +288,13 @@ TEST(StudyCalibrateCharts, CutSpectraBelowTheNoiseAndAtOrderNineAndAHalf) {
     picture["measured"]["frequency_hz"].push_back(f);
     picture["measured"]["amplitude"].push_back(f == 50 ? 10 : 1e-12);
   }
-  const std::string svg = spectrum_chart("s", picture);
+  const std::string svg = spectrum_chart("s", answer_of_json<RecordPicture>(picture));
   EXPECT_NE(svg.find("order 1: 10 Hz"), std::string::npos);
   EXPECT_NE(svg.find("amplitude, N m"), std::string::npos);
   EXPECT_EQ(svg.find("1e-"), std::string::npos) << "no decades of rounding on the axis";
   EXPECT_EQ(svg.find(">1000<"), std::string::npos);
   picture["measured"]["amplitude"] = {0, 0, 0};
-  EXPECT_EQ(spectrum_chart("s", picture), "") << "nothing above zero";
+  EXPECT_EQ(spectrum_chart("s", answer_of_json<RecordPicture>(picture)), "") << "nothing above zero";
 }
 
 }  // namespace

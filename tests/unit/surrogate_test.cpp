@@ -125,7 +125,7 @@ TEST_F(SurrogateKind, LearnsFromWhatDidNotFailAndJudgesItself) {
   EXPECT_EQ(q["nominal"]["simulated"], 0);  // at the origin
   EXPECT_NEAR(q["nominal"]["predicted"], 0, 0.3);
   EXPECT_TRUE(answer["quantities"]["constant"]["q2"].is_null());
-  expect_words(SurrogateStudy::text(answer), {"usable", "constant does not vary", "Nominal point"});
+  expect_words(text_of<SurrogateStudy>(answer), {"usable", "constant does not vary", "Nominal point"});
 }
 
 TEST_F(SurrogateKind, OfKrigingHasIndicesToo) {
@@ -154,7 +154,7 @@ TEST_F(SurrogateKind, SaysSoWhereNothingIsToBeLearnt) {
   const LoadedProblem problem = toy_problem(ishigami_inputs(), {"y"});
   const auto answer = answer_of<SurrogateStudy>(problem, settings_of(20, SurrogateMethod::chaos, 2),
                                                 toy({ishigami}, [](const auto&) { return true; }), folder);
-  expect_words(SurrogateStudy::text(answer), {"only 0 of 20 points"});
+  expect_words(text_of<SurrogateStudy>(answer), {"only 0 of 20 points"});
   SurrogateSettings steep;
   steep.degree = 20;
   std::vector<ParameterSpec> many;

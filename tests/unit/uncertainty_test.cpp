@@ -151,7 +151,7 @@ TEST_F(UncertaintyKind, GivesTheB10LifeAndTheOddsOfMissingATarget) {
     EXPECT_NEAR(q["missing_target"]["value"], 0.5, 0.002);
     EXPECT_NEAR(q["missing_target"]["low"], 0.469, 0.003);
   }
-  expect_words(UncertaintyStudy::text(answer), {"B10 life", "less than 1000 h: 50 %", "Wilson", "in log10 h"});
+  expect_words(text_of<UncertaintyStudy>(answer), {"B10 life", "less than 1000 h: 50 %", "Wilson", "in log10 h"});
 }
 
 TEST_F(UncertaintyKind, SaysWhatFailuresMayHide) {
@@ -173,10 +173,11 @@ TEST_F(UncertaintyKind, SaysWhatFailuresMayHide) {
   EXPECT_TRUE(by["99.5"]["high"].is_null());
   EXPECT_NEAR(q["missing_target"]["if_failed_miss"], 0.25, 2e-3);
   EXPECT_NEAR(q["missing_target"]["if_failed_hold"], 0.15, 2e-3);
-  expect_words(UncertaintyStudy::text(answer), {"10 % of the points failed", "25 % if every failed point misses it"});
+  expect_words(text_of<UncertaintyStudy>(answer),
+               {"10 % of the points failed", "25 % if every failed point misses it"});
   const auto all =
       answer_of<UncertaintyStudy>(problem, settings, toy({ishigami}, [](const auto&) { return true; }), folder);
-  expect_words(UncertaintyStudy::text(all), {"only 0 of 1000"});
+  expect_words(text_of<UncertaintyStudy>(all), {"only 0 of 1000"});
 }
 
 TEST_F(UncertaintyKind, RefusesCorrelationsThatCannotHoldByLineAndKey) {
