@@ -59,7 +59,7 @@ struct Known {
   std::string_view key, about;
   const std::vector<AnswerNote>* parts = nullptr;  ///< of the answer that the value is, below its maps
   const AnswerNote* note = nullptr;
-  int named = 0;             ///< maps by name that are still to come
+  int named = 0;                  ///< maps by name that are still to come
   std::string unit_of_name = {};  ///< of the nearest name above that has one
 
   std::string unit() const {
