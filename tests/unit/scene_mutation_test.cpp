@@ -21,6 +21,7 @@ const std::vector<std::string>& originals() {
   static const std::vector<std::string> texts = [] {
     std::vector<std::string> found;
     for (const auto& entry : fs::directory_iterator(BELTLIFE_SCENES)) {
+      if (entry.path().extension() != ".toml") continue;
       std::ifstream in(entry.path());
       found.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
     }
