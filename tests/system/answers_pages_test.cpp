@@ -27,10 +27,10 @@ std::vector<SmallRun> small_runs() {
       {"noise",
        {"study", "noise"},
        numbers + "[study]\nphases = 2\nperturbations = 2\nline_points = 4\n",
-       {"noise", "failures", "points", "provenance"}},
+       {"noise", "points", "provenance"}},
       {"convergence",
        {"study", "convergence", "--threads", "1"},
-       "scene = \"drive.toml\"\n[study]\nschemes = [\"symplectic_euler\", \"linearly_implicit\"]\nelements = [64]\n"
+       "scene = \"longer.toml\"\n[study]\nschemes = [\"symplectic_euler\", \"linearly_implicit\"]\nelements = [64]\n"
        "implicit_steps_s = [2e-5, 4e-5]\nexplicit_factors = [1]\nphases = 2\nrepeats = 1\n",
        {"errors", "cheapest", "settings", "quantities"}},
       {"stability",
@@ -80,12 +80,14 @@ class Driver : public InStudyFolder {
 };
 
 TEST_F(Driver, OfEveryKindShowsAllThatItFoundOnItsPage) {
+  const std::string held = replaced(small_drive(), "hold_s = 0.12 ", "hold_s = 0.3 ");
+  write("longer.toml", replaced(held, "evaluate_s = 0.06 ", "evaluate_s = 0.25 "));  // a window that resolves orders
   for (const SmallRun& r : small_runs()) {
     SCOPED_TRACE(r.name);
     write(std::string(r.name) + ".toml", r.file);
     const Answer a = run(r.command + Arguments{std::string(r.name) + ".toml", "--quiet", "--json", "--out",
                                                std::string(r.name) + ".h5"});
-    ASSERT_EQ(a.code, 0) << a.err;
+    EXPECT_EQ(a.code, 0) << a.err;
     expect_page(r);
   }
 }

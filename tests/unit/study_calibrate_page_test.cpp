@@ -153,7 +153,7 @@ TEST(StudyCalibratePage, HasValuesIntervalsPicturesResidualsAndFits) {
                       "<strong>1 of 3</strong> parameters",
                       ">0.4375<",
                       "0.375 to 0.5",
-                      "0.375 to -",
+                      "0.375 to not reached",
                       ">0.2 to 1.2<",
                       ">N m<",
                       "x &lt; y ended.",
