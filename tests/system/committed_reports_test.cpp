@@ -1,6 +1,7 @@
 // Committed reports: each page comes from its compressed log alone, and the log is whole.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "results/store/study_file.h"
@@ -14,6 +15,7 @@ std::vector<fs::path> logs() {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(BELTLIFE_SOURCE "/results/reports"))
     if (entry.is_directory()) found.push_back(entry.path() / "log.jsonl.gz");
+  std::sort(found.begin(), found.end());  // folders list files in any order
   return found;
 }
 
@@ -29,16 +31,18 @@ TEST(CommittedReports, HaveAWholeLogAndAReadmeWithItsCommand) {
   }
 }
 
-TEST(CommittedReports, GiveTheirPagesFromTheLogAlone) {
-  const fs::path page = fs::path(testing::TempDir()) / "committed_report.html";
-  for (const fs::path& log : logs()) {
-    SCOPED_TRACE(log);
-    fs::remove(page);
-    const Answer made = beltlife({"report", log.string(), "--out", page.string(), "--quiet"});
-    EXPECT_EQ(made.code, 0) << made.err;
-    EXPECT_GT(fs::file_size(page), 10000u);
-  }
+class CommittedReport : public testing::TestWithParam<fs::path> {};
+
+TEST_P(CommittedReport, GivesItsPageFromTheLogAlone) {
+  const fs::path page = fs::path(testing::TempDir()) / (GetParam().parent_path().filename().string() + "_report.html");
+  fs::remove(page);
+  const Answer made = beltlife({"report", GetParam().string(), "--out", page.string(), "--quiet"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_GT(fs::file_size(page), 10000u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, CommittedReport, testing::ValuesIn(logs()),
+                         [](const auto& given) { return given.param.parent_path().filename().string(); });
 
 }  // namespace
 }  // namespace beltlife::system_test
