@@ -18,7 +18,7 @@ std::vector<std::string> units() {
 }
 
 /// The files are dealt out to several tests, which ctest runs side by side.
-constexpr std::size_t shares = 8;
+constexpr std::size_t shares = 16;
 class Tidy : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Tidy, FindsNothing) {
