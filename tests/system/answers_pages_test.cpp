@@ -79,18 +79,21 @@ class Driver : public InStudyFolder {
   }
 };
 
-TEST_F(Driver, OfEveryKindShowsAllThatItFoundOnItsPage) {
+class DriverOfAKind : public Driver, public testing::WithParamInterface<SmallRun> {};
+
+TEST_P(DriverOfAKind, ShowsAllThatItFoundOnItsPage) {
   const std::string held = replaced(small_drive(), "hold_s = 0.12 ", "hold_s = 0.3 ");
   write("longer.toml", replaced(held, "evaluate_s = 0.06 ", "evaluate_s = 0.25 "));  // a window that resolves orders
-  for (const SmallRun& r : small_runs()) {
-    SCOPED_TRACE(r.name);
-    write(std::string(r.name) + ".toml", r.file);
-    const Answer a = run(r.command + Arguments{std::string(r.name) + ".toml", "--quiet", "--json", "--out",
-                                               std::string(r.name) + ".h5"});
-    EXPECT_EQ(a.code, 0) << a.err;
-    expect_page(r);
-  }
+  const SmallRun& r = GetParam();
+  write(std::string(r.name) + ".toml", r.file);
+  const Answer a = run(
+      r.command + Arguments{std::string(r.name) + ".toml", "--quiet", "--json", "--out", std::string(r.name) + ".h5"});
+  ASSERT_EQ(a.code, 0) << a.err;
+  expect_page(r);
 }
+
+INSTANTIATE_TEST_SUITE_P(Each, DriverOfAKind, testing::ValuesIn(small_runs()),
+                         [](const auto& given) { return std::string(given.param.name); });
 
 TEST_F(Driver, CalibrateShowsAllThatItFoundOnItsPage) {
   write("twin.toml", "scene = \"drive.toml\"\nset = [\"belt.axial_stiffness_n=120000\"]\nseconds = 0.5\n");
